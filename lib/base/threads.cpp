@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "lib/base/float_environment.hpp"
+
 namespace powercell {
 
 int thread_count(int requested) {
@@ -19,6 +21,7 @@ void run_workers(int workers, const std::function<void(int)>& worker) {
   if (workers <= 0) return;
   std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(workers));
   const auto guarded = [&](int w) noexcept {
+    const FloatEnvironment environment;  // where threads do not inherit it
     try {
       worker(w);
     } catch (...) {

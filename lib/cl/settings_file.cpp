@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/cl/disk_cache.hpp"
 #include "lib/cl/quirks.hpp"
@@ -195,6 +196,7 @@ std::string settings_file(const DeviceInfo& device) {
 }
 
 void save_settings(const DeviceInfo& device, const DeviceSettings& settings) {
+  const FloatEnvironment environment;
   cl::require_usable(device, settings);
   const std::string path = settings_file(device);
   if (path.empty())

@@ -1,6 +1,7 @@
 #include <powercell/diagram.hpp>
 #include <string>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/collect/join_faces.hpp"
 #include "lib/collect/join_weld.hpp"
 
@@ -90,6 +91,7 @@ JoinedCells join_periodic(const Domain& domain, Cells cells) {
 }  // namespace
 
 JoinedCells join(const Domain& domain, const Cells& cells) {
+  const FloatEnvironment environment;
   check(domain, cells);
   return cells.shift.empty() ? join_pieces(domain, cells) : join_periodic(domain, cells);
 }

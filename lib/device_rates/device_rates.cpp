@@ -3,6 +3,7 @@
 #include <numeric>
 #include <powercell/device_rates.hpp>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/cl/choose.hpp"
 #include "lib/cl/program.hpp"
 #include "lib/device_rates/known.hpp"
@@ -120,6 +121,7 @@ constexpr Repeats many{100, 100};  // of calls that do next to nothing
 }  // namespace
 
 DeviceLatencies measure_device_latencies(const Device& device) {
+  const FloatEnvironment environment;
   cl::require_single(device, "latencies are those of");
   const ContextPointer& context = device.context();
   cl::Buffer<float> one(context);
@@ -162,6 +164,7 @@ DeviceTransfers measure_device_transfers(const Device& device, std::size_t bytes
 }
 
 DeviceRates measure_device_rates(const Device& device, Precision precision) {
+  const FloatEnvironment environment;
   cl::require_single(device, "rates are those of");
   const bool fp64 = device.info().fp64;
   if (precision == Precision::float64 && !fp64)

@@ -6,6 +6,7 @@
 #include <powercell/triangulation.hpp>
 
 #include "kernels/layout.h"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/clip/host_clip.hpp"
@@ -174,6 +175,7 @@ std::vector<bool> at_boundary(const Cells& cells) {
 }  // namespace
 
 Dual regular_triangulation(const Device& device, const SeedsView& seeds, const Options& options) {
+  const FloatEnvironment environment;
   if (seeds.dimension != 2 && seeds.dimension != 3)
     throw Error(ErrorCode::invalid_argument,
                 "a triangulation needs seeds of 2 or 3 coordinates, not " + std::to_string(seeds.dimension));

@@ -2,6 +2,7 @@
 #include <powercell/domain.hpp>
 #include <powercell/regions.hpp>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/period.hpp"
@@ -21,36 +22,44 @@ Domain logged(Domain domain) {
 }  // namespace
 
 Domain Domain::polygon(std::span<const PolygonPart> parts) {
+  const FloatEnvironment environment;
   return Domain(build_polygon(parts));
 }
 
 Domain Domain::surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+  const FloatEnvironment environment;
   return logged(Domain(build_surface(vertices, triangles)));
 }
 
 Domain Domain::volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra) {
+  const FloatEnvironment environment;
   return logged(Domain(build_volume(vertices, tetrahedra)));
 }
 
 Domain Domain::solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+  const FloatEnvironment environment;
   return logged(Domain(build_solid(vertices, triangles)));
 }
 
 Domain Domain::box(std::span<const double> low, std::span<const double> high) {
+  const FloatEnvironment environment;
   return Domain(build_box(low, high));
 }
 
 Domain Domain::periodic_box(std::span<const double> low, std::span<const double> high,
                             std::span<const bool> periodic) {
+  const FloatEnvironment environment;
   return Domain(build_periodic_box(low, high, periodic));
 }
 
 Domain Domain::periodic_box(std::span<const double> low, std::span<const double> high) {
+  const FloatEnvironment environment;
   constexpr bool all[] = {true, true, true};
   return periodic_box(low, high, std::span(all).first(std::min<std::size_t>(low.size(), 3)));
 }
 
 Domain Domain::lattice(std::span<const double> vectors, std::span<const double> origin) {
+  const FloatEnvironment environment;
   return Domain(build_lattice(vectors, origin));
 }
 
@@ -64,6 +73,7 @@ std::array<std::array<double, 3>, 3> Domain::periods() const {
 }
 
 std::vector<double> Domain::wrapped(std::span<const double> positions) const {
+  const FloatEnvironment environment;
   const auto d = static_cast<std::size_t>(dimension());
   if (positions.size() % d != 0)
     throw Error(ErrorCode::invalid_argument,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/random.hpp"
 #include "lib/domain/solid_points.hpp"
 
@@ -85,6 +86,7 @@ std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std
 }
 
 std::vector<RegionPoint> random_points(const Domain& domain, std::size_t count, std::uint64_t random_seed) {
+  const FloatEnvironment environment;
   std::vector<RegionPoint> points;
   points.reserve(count);
   for (const Sample& sample : random_points(domain.mesh(), count, random_seed)) {

@@ -5,6 +5,7 @@
 #include <powercell/shapes.hpp>
 #include <string>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/vectors.hpp"
 
 namespace powercell {
@@ -179,6 +180,7 @@ void append_octant(const BallGrid& grid, int n, const std::array<int, 3>& sign,
 }  // namespace
 
 Ring disk(int segments) {
+  const FloatEnvironment environment;
   check_range(segments, 3, 1 << 26, "the number of segments of a disk");
   Ring ring;
   for (int k = 0; k < segments; ++k) {
@@ -189,6 +191,7 @@ Ring disk(int segments) {
 }
 
 TriangleMesh sphere(int resolution) {
+  const FloatEnvironment environment;
   check_range(resolution, 1, 4096, "the resolution of a sphere");
   const int n = resolution;
   const Icosahedron solid = icosahedron();
@@ -214,6 +217,7 @@ TriangleMesh sphere(int resolution) {
 }
 
 TriangleMesh torus(int resolution) {
+  const FloatEnvironment environment;
   check_range(resolution, 3, 16384, "the resolution of a torus");
   const int around_tube = resolution, around_axis = (5 * resolution + 1) / 2;
   TriangleMesh mesh;
@@ -235,6 +239,7 @@ TriangleMesh torus(int resolution) {
 }
 
 TetrahedralMesh ball(int resolution) {
+  const FloatEnvironment environment;
   check_range(resolution, 1, 256, "the resolution of a ball");
   BallGrid grid(resolution);
   TetrahedralMesh mesh;

@@ -2,6 +2,7 @@
 #include <powercell/distributed.hpp>
 #include <utility>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/rank_post.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/exchange/redistribution.hpp"
@@ -64,6 +65,7 @@ DistributedCells compute(RankPost& post, const Device& device, const Domain& dom
 DistributedCells compute_distributed(Communicator& communicator, const Device& device, const Domain& domain,
                                      std::span<const std::uint64_t> ids, const SeedsView& seeds,
                                      const DistributedOptions& options) {
+  const FloatEnvironment environment;
   RankPost post(communicator);
   return post.together([&] { return exchange::compute(post, device, domain, {ids, seeds}, options); });
 }

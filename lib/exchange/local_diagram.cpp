@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/rank_post.hpp"
 #include "lib/exchange/checks.hpp"
 
@@ -162,6 +163,7 @@ Domain surrounding_box(const Domain& domain) {
 LocalDiagram local_diagram(Communicator& communicator, const Device& device, const Domain& domain,
                            std::span<const std::uint64_t> ids, const SeedsView& seeds,
                            const DistributedCells& cells, const Options& options) {
+  const FloatEnvironment environment;
   RankPost post(communicator);
   return post.together([&] {
     const exchange::ShardSeeds own{ids, seeds};

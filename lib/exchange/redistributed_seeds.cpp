@@ -3,6 +3,7 @@
 #include <powercell/redistributed_seeds.hpp>
 #include <string>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/rank_post.hpp"
 #include "lib/base/same_values.hpp"
 #include "lib/base/threads.hpp"
@@ -46,8 +47,10 @@ struct RedistributedSeeds::State {
 };
 
 RedistributedSeeds::RedistributedSeeds(Communicator& communicator, std::span<const std::uint64_t> ids,
-                                       const SeedsView& seeds, const Domain* domain)
-    : state_(std::make_unique<State>(communicator, exchange::ShardSeeds{ids, seeds}, domain)) {}
+                                       const SeedsView& seeds, const Domain* domain) {
+  const FloatEnvironment environment;
+  state_ = std::make_unique<State>(communicator, exchange::ShardSeeds{ids, seeds}, domain);
+}
 
 RedistributedSeeds::RedistributedSeeds(RedistributedSeeds&&) noexcept = default;
 RedistributedSeeds& RedistributedSeeds::operator=(RedistributedSeeds&&) noexcept = default;
@@ -62,6 +65,7 @@ SeedsView RedistributedSeeds::seeds() const {
 }
 
 DistributedCells RedistributedSeeds::send_back(const DistributedCells& cells) {
+  const FloatEnvironment environment;
   return state_->post.together([&] {
     const std::size_t rows = cells.measures.mass.size();
     if (rows != ids().size() || cells.offset.size() != rows + 1)

@@ -6,6 +6,7 @@
 #include <powercell/out_of_core.hpp>
 #include <utility>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/random.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/exchange/checks.hpp"
@@ -234,6 +235,7 @@ class Computation {
 OutOfCoreReport compute_out_of_core(const Device& device, const Domain& domain, const SeedSource& source,
                                     const std::function<void(CellRows)>& take,
                                     const OutOfCoreOptions& options) {
+  const FloatEnvironment environment;
   out_of_core::require_valid(source, domain, options);
   exchange::require_supported(domain, options.diagram, "seeds out of core");
   return out_of_core::Computation(device, domain, source, options).run(take);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -158,6 +159,7 @@ Adjacency adjacency_of(const Cells& cells, const Rounding& rounding) {
 }  // namespace
 
 std::vector<LawCheck> verify(const SavedDiagram& diagram, const VerifyOptions& options) {
+  const FloatEnvironment environment;
   require_fit(diagram);
   const Cells cells = pieces_of(diagram.cells, diagram.measures.status);
   const Rounding rounding(extent_of(cells, diagram.measures.domain_measure), diagram.seeds,

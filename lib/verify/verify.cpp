@@ -2,6 +2,7 @@
 #include <optional>
 #include <powercell/verify.hpp>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/verify/laws.hpp"
 #include "lib/verify/unfold.hpp"
@@ -43,6 +44,7 @@ Extent extent_with(const Domain& domain, const Cells& cells) {
 }  // namespace
 
 std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const VerifyOptions& options) {
+  const FloatEnvironment environment;
   check_same_seeds(diagram, seeds);
   const Domain& domain = diagram.domain();
   const RegionMesh& mesh = domain.mesh();

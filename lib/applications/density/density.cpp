@@ -2,6 +2,7 @@
 #include <powercell/density.hpp>
 
 #include "lib/applications/density/model.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/sums.hpp"
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
@@ -15,18 +16,23 @@ constexpr double largest_integral = 1e300;
 }  // namespace
 
 Density Density::constant(double value) {
+  const FloatEnvironment environment;
   return Density(make_constant(value));
 }
 Density Density::formula(std::string_view expression, double tolerance) {
+  const FloatEnvironment environment;
   return Density(make_formula(expression, tolerance));
 }
 Density Density::function(std::function<double(const std::array<double, 3>&)> value, double tolerance) {
+  const FloatEnvironment environment;
   return Density(make_function(std::move(value), tolerance));
 }
 Density Density::image(const ImageView& image) {
+  const FloatEnvironment environment;
   return Density(make_image(image));
 }
 Density Density::nodal(std::span<const double> values) {
+  const FloatEnvironment environment;
   return Density(make_nodal(values));
 }
 
@@ -39,6 +45,7 @@ bool Density::is_exact() const {
 }
 
 double Density::total(const Domain& domain, int threads) const {
+  const FloatEnvironment environment;
   const double total = model_->total(domain, thread_count(threads));
   if (!(total <= largest_integral))
     throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total, 3) +
@@ -48,6 +55,7 @@ double Density::total(const Domain& domain, int threads) const {
 }
 
 DensityIntegrals integrate(Diagram& diagram, const Density& density, const IntegrationOptions& options) {
+  const FloatEnvironment environment;
   if (!(options.tolerance >= 0 && options.tolerance < 1))
     throw Error(ErrorCode::invalid_argument, "the tolerance of integrals is " + digits(options.tolerance) +
                                                  "; it must be 0 or between 0 and 1");
@@ -66,6 +74,7 @@ DensityIntegrals integrate(Diagram& diagram, const Density& density, const Integ
 }
 
 DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls, int threads) {
+  const FloatEnvironment environment;
   IntegrationOptions options;
   options.walls = walls;
   options.threads = threads;
@@ -73,12 +82,14 @@ DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls,
 }
 
 double DensityIntegrals::total() const {
+  const FloatEnvironment environment;
   CompensatedSum<long double> sum;
   for (double m : mass) sum.add(m);
   return sum.value();
 }
 
 double DensityIntegrals::relative_error() const {
+  const FloatEnvironment environment;
   return std::abs(total() - domain_mass) / domain_mass;
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "lib/applications/density/parts.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/random.hpp"
 
 namespace powercell {
@@ -105,6 +106,7 @@ std::vector<double> points_by_parts(const Domain& domain, const Density& density
 
 std::vector<double> random_points(const Domain& domain, const Density& density, std::size_t n,
                                   std::uint64_t random_seed) {
+  const FloatEnvironment environment;
   if (auto points = points_by_rejection(domain, density, n, random_seed)) return std::move(*points);
   return points_by_parts(domain, density, n, random_seed);
 }

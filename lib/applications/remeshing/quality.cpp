@@ -8,6 +8,7 @@
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/nearest.hpp"
 #include "lib/applications/remeshing/triangle.hpp"
+#include "lib/base/float_environment.hpp"
 
 namespace powercell {
 namespace {
@@ -63,6 +64,7 @@ Frame common_frame(const TriangleMesh& a, const TriangleMesh& b) {
 }  // namespace
 
 MeshQuality mesh_quality(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+  const FloatEnvironment environment;
   const auto rows = rows_of(vertices, triangles);
   const MeshCheck check = check_mesh(rows, vertices.size() / 3);
   // Squared areas overflow for coordinates beyond 10^77 and underflow below 10^-77.
@@ -98,6 +100,7 @@ MeshQuality mesh_quality(std::span<const double> vertices, std::span<const std::
 }
 
 double farthest_from(const TriangleMesh& a, const TriangleMesh& b, std::size_t samples) {
+  const FloatEnvironment environment;
   const auto rows_a = rows_of(a.vertices, a.triangles), rows_b = rows_of(b.vertices, b.triangles);
   const Frame frame = common_frame(a, b);
   const std::vector<double> vertices_a = frame.to(a.vertices), vertices_b = frame.to(b.vertices);

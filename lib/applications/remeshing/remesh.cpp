@@ -14,6 +14,7 @@
 #include "lib/applications/remeshing/relax.hpp"
 #include "lib/applications/remeshing/repair_steps.hpp"
 #include "lib/applications/remeshing/work_mesh.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/base/work_clock.hpp"
 
@@ -116,6 +117,7 @@ WorkMesh mesh_of(Sampling& sampling, const Sizing& sizing, const std::vector<Cur
 
 RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                     const RemeshOptions& options) {
+  const FloatEnvironment environment;
   check(options);
   RemeshResult result;
   WorkClock watch;

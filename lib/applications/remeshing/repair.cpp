@@ -7,6 +7,7 @@
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/repair_steps.hpp"
 #include "lib/base/disjoint_sets.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/positions.hpp"
 #include "lib/base/text.hpp"
 
@@ -144,6 +145,7 @@ std::vector<std::string> RepairReport::left() const {
 
 RepairedMesh repair(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                     const RepairOptions& options) {
+  const FloatEnvironment environment;
   if (std::isnan(options.weld))
     throw Error(ErrorCode::invalid_argument, "the tolerance of welding is not a number");
   check_triangles(vertices, triangles);

@@ -8,6 +8,7 @@
 #include "lib/applications/sampling/lbfgs.hpp"
 #include "lib/applications/sampling/moved_layers.hpp"
 #include "lib/applications/sampling/state.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/work_clock.hpp"
 
 namespace powercell {
@@ -263,6 +264,7 @@ SamplingResult sample_layers(const Device& device, const Domain& surface, std::s
 
 SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                       const SamplingOptions& options) {
+  const FloatEnvironment environment;
   check(options);
   if (n == 0) throw Error(ErrorCode::invalid_argument, "no points: sampling needs at least one");
   if (domain.kind() == DomainKind::surface && options.mode == SamplingMode::blue) {
@@ -277,6 +279,7 @@ SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
 
 SamplingResult sample(const Device& device, const Domain& domain, std::span<const double> positions,
                       const SamplingOptions& options) {
+  const FloatEnvironment environment;
   check(options);
   if (positions.empty() || positions.size() % static_cast<std::size_t>(domain.dimension()) != 0)
     throw Error(ErrorCode::invalid_argument, std::to_string(positions.size()) +

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/applications/transport/periodic_domain.hpp"
+#include "lib/base/float_environment.hpp"
 
 namespace powercell {
 namespace {
@@ -114,6 +115,7 @@ NeighbourStatistics neighbour_statistics(const Device& device, const Domain& dom
 
 Spacing spacing(const Device& device, const Domain& domain, std::span<const double> positions, bool periodic,
                 bool uniform, const Options& options) {
+  const FloatEnvironment environment;
   return measure_neighbours(device, domain, positions, periodic, uniform, options, require_cells).spacing;
 }
 

@@ -3,6 +3,7 @@
 #include <powercell/point_sets.hpp>
 #include <string>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/threads.hpp"
 
 namespace powercell {
@@ -54,6 +55,7 @@ constexpr std::size_t shares = 8;
 }  // namespace
 
 Spectrum spectrum(const Domain& box, std::span<const double> positions, int highest, int threads) {
+  const FloatEnvironment environment;
   if (box.dimension() != 2)
     throw Error(ErrorCode::unsupported, "spectra are computed in boxes of the plane only");
   const std::size_t n = positions.size() / 2;
@@ -92,6 +94,7 @@ Spectrum spectrum(const Domain& box, std::span<const double> positions, int high
 }
 
 Spectrum mean(std::span<const Spectrum> spectra) {
+  const FloatEnvironment environment;
   if (spectra.empty()) throw Error(ErrorCode::invalid_argument, "no spectra to take the mean of");
   Spectrum result = spectra.front();
   result.power.assign(result.power.size(), 0.0);

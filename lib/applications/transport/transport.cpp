@@ -3,6 +3,7 @@
 
 #include "lib/applications/transport/outcome.hpp"
 #include "lib/applications/transport/state.hpp"
+#include "lib/base/float_environment.hpp"
 
 namespace powercell {
 namespace {
@@ -34,6 +35,7 @@ std::size_t TransportResult::newton_steps() const {
 }
 
 TransportSolver::TransportSolver(Device device, Domain domain, TransportOptions options) {
+  const FloatEnvironment environment;
   require_valid(options);
   state_ = std::make_unique<State>(std::move(device), std::move(domain), std::move(options));
 }
@@ -42,6 +44,7 @@ TransportSolver& TransportSolver::operator=(TransportSolver&&) noexcept = defaul
 TransportSolver::~TransportSolver() = default;
 
 void TransportSolver::set_seeds(const SeedsView& seeds) {
+  const FloatEnvironment environment;
   State& s = *state_;
   if (seeds.size() == 0) refuse("no seeds: a transport needs at least one");
   s.diagram.set_seeds(seeds);
@@ -54,6 +57,7 @@ void TransportSolver::set_seeds(const SeedsView& seeds) {
 }
 
 void TransportSolver::move_seeds(std::span<const double> positions) {
+  const FloatEnvironment environment;
   State& s = *state_;
   if (s.positions.empty()) refuse("move_seeds before set_seeds: give the seeds first");
   if (positions.size() != s.positions.size())
@@ -71,6 +75,7 @@ void TransportSolver::move_seeds(std::span<const double> positions) {
 }
 
 void TransportSolver::set_weights(std::span<const double> weights) {
+  const FloatEnvironment environment;
   State& s = *state_;
   if (weights.size() != s.size())
     refuse(std::to_string(weights.size()) + " weights for " + std::to_string(s.size()) + " seeds");
@@ -81,12 +86,14 @@ void TransportSolver::set_weights(std::span<const double> weights) {
 }
 
 void TransportSolver::set_masses(std::span<const double> masses) {
+  const FloatEnvironment environment;
   State& s = *state_;
   require_valid_masses(masses, s.size());
   s.masses.assign(masses.begin(), masses.end());
 }
 
 void TransportSolver::set_tolerance(double tolerance) {
+  const FloatEnvironment environment;
   TransportOptions options;
   options.tolerance = tolerance;
   require_valid(options);
@@ -101,6 +108,7 @@ void TransportSolver::set_max_steps(int steps) {
 }
 
 const TransportResult& TransportSolver::solve() {
+  const FloatEnvironment environment;
   return state_->solve();
 }
 
@@ -123,6 +131,7 @@ Diagram& TransportSolver::diagram() {
 
 TransportResult transport(const Device& device, const Domain& domain, const SeedsView& seeds,
                           std::span<const double> masses, const TransportOptions& options) {
+  const FloatEnvironment environment;
   TransportSolver solver(device, domain, options);
   solver.set_seeds(seeds);
   solver.set_masses(masses);

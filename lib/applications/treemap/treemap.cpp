@@ -8,6 +8,7 @@
 #include "lib/applications/treemap/convex_polygon.hpp"
 #include "lib/applications/treemap/group.hpp"
 #include "lib/applications/treemap/hierarchy.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/threads.hpp"
 
 namespace powercell {
@@ -185,6 +186,7 @@ void measure_leaves(Treemap& map, std::size_t root) {
 }  // namespace
 
 Treemap treemap(const TreeView& tree, const Ring& outline, const TreemapOptions& options) {
+  const FloatEnvironment environment;
   if (!options.start.empty() && options.start.size() != 2 * tree.parent.size())
     throw Error(ErrorCode::invalid_argument, "treemap: the start must have two numbers for each node");
   if (!(options.tolerance > 0) || options.rounds < 0)
@@ -203,6 +205,7 @@ Treemap treemap(const TreeView& tree, const Ring& outline, const TreemapOptions&
 std::vector<double> relative_positions(std::span<const std::int64_t> parent, std::span<const double> seeds,
                                        std::span<const std::uint64_t> vertex_offset,
                                        std::span<const double> vertices) {
+  const FloatEnvironment environment;
   const std::size_t n = parent.size();
   if (seeds.size() != 2 * n || vertex_offset.size() != n + 1 || vertices.size() % 2 != 0 ||
       vertices.size() / 2 != vertex_offset[n])

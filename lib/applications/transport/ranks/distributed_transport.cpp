@@ -7,6 +7,7 @@
 #include "lib/applications/transport/ranks/merging.hpp"
 #include "lib/applications/transport/ranks/rank_evaluator.hpp"
 #include "lib/applications/transport/ranks/rank_seeds.hpp"
+#include "lib/base/float_environment.hpp"
 #include "lib/base/same_values.hpp"
 
 namespace powercell {
@@ -105,6 +106,7 @@ TransportResult transport_distributed(Communicator& communicator, DistributedLin
                                       const Device& device, const Domain& domain, const SeedsView& seeds,
                                       std::span<const double> masses,
                                       const DistributedTransportOptions& options) {
+  const FloatEnvironment environment;
   RankPost post(communicator);
   return post.together([&] {
     const RankSeeds all(post);
