@@ -145,7 +145,7 @@ Every run is checked: measures that do not sum to the domain's are a failure. Th
 of 1,000,000 seeds in the cube (100,000 with --quick), measures alone, in the first precision. A ratio of
 --compare has the scatter of both runs beside it, and a ~ where it shows no difference beyond that.
 Examples:
-  powercell bench                                      every device and precision, some minutes for each device
+  powercell bench                                      every device and precision, some minutes a device
   powercell bench --device gpu --json gpu.json
   powercell bench --quick --domain cube --domain part.mesh --precision float
   powercell bench --json new.json --compare old.json --fail-below 0.9

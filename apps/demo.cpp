@@ -43,7 +43,7 @@ struct Plan {
 constexpr Plan plans[] = {{draw_map, 0},     {draw_surface, 1},  {draw_volume, 1},
                           {draw_treemap, 2}, {draw_stipples, 0}, {draw_mesh, 2}};
 constexpr std::size_t tracks = 3, tracks_with_device = 2;
-constexpr std::size_t programs_of_all = 14;  // to compile, with empty caches
+constexpr std::size_t programs_of_all = 13;  // to compile, with empty caches
 
 void write_text(const fs::path& path, std::string_view text) {
   io::AtomicFile file(path.string());

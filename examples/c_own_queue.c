@@ -1,5 +1,7 @@
 /* A diagram between kernels of the caller, in C: seeds and measures are buffers in the caller's OpenCL
  * context, all commands go to the caller's queue, and nothing is copied to the host in between. */
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
 #include <math.h>
 #include <powercell_opencl.h>
 #include <stdlib.h>

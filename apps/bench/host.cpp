@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <powercell/opencl.hpp>
 #include <string_view>
 #include <thread>
 
@@ -53,7 +54,7 @@ unsigned usable_processors() {
 /// A text of the loader itself, which ocl-icd and that of Khronos tell.
 std::string loader_text(unsigned which) {
   using Ask = int (*)(unsigned, std::size_t, void*, std::size_t*);
-  const auto ask = reinterpret_cast<Ask>(dlsym(RTLD_DEFAULT, "clGetICDLoaderInfoOCLICD"));
+  const auto ask = reinterpret_cast<Ask>(opencl_function("clGetICDLoaderInfoOCLICD"));
   std::array<char, 200> text{};
   if (!ask || ask(which, text.size() - 1, text.data(), nullptr) != 0) return {};
   return text.data();
@@ -64,7 +65,7 @@ std::string loader_name() {
   std::string text = loader_text(name);
   if (const std::string number = loader_text(version); !number.empty())
     text += (text.empty() ? "" : " ") + number;
-  void* call = dlsym(RTLD_DEFAULT, "clGetPlatformIDs");
+  void* call = opencl_function("clGetPlatformIDs");
   Dl_info place{};
   if (!call || dladdr(call, &place) == 0 || !place.dli_fname) return text;
   std::error_code unknown;

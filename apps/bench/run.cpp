@@ -255,8 +255,8 @@ class Bench {
   void follow(BenchTask& task, double seconds) {
     const double row = 1 / static_cast<double>(rows_), done = row * static_cast<double>(rows_done_);
     progress_.part(done, done + row);
-    progress_.note(fmt::format("{} in {}, {} seeds", task.name, precision_name(task.options.precision),
-                               with_commas(task.n)));
+    progress_.note(
+        fmt::format("{}, {}, {}", task.name, precision_name(task.options.precision), with_commas(task.n)));
     task.options.progress = [this, watch = Stopwatch(), spent = 0.0, seconds](double) mutable {
       constexpr double most = 0.95;
       spent += watch.lap();

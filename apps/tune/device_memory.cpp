@@ -8,6 +8,9 @@
 #include "apps/report.hpp"
 #include "apps/tune/job.hpp"
 
+// Those that the library calls, so that the tool starts where there is no OpenCL.
+#define OPENCL(name) (reinterpret_cast<decltype(&(name))>(opencl_function(#name)))
+
 namespace powercell::app {
 namespace {
 
@@ -17,11 +20,11 @@ void check(cl_int status, const char* doing) {
 
 cl_device_id find_device(const DeviceInfo& info) {
   std::vector<cl_platform_id> platforms(static_cast<std::size_t>(info.platform) + 1);
-  check(clGetPlatformIDs(static_cast<cl_uint>(platforms.size()), platforms.data(), nullptr),
+  check(OPENCL(clGetPlatformIDs)(static_cast<cl_uint>(platforms.size()), platforms.data(), nullptr),
         "listing platforms");
   std::vector<cl_device_id> found(static_cast<std::size_t>(info.device) + 1);
-  check(clGetDeviceIDs(platforms.back(), CL_DEVICE_TYPE_ALL, static_cast<cl_uint>(found.size()), found.data(),
-                       nullptr),
+  check(OPENCL(clGetDeviceIDs)(platforms.back(), CL_DEVICE_TYPE_ALL, static_cast<cl_uint>(found.size()),
+                               found.data(), nullptr),
         "listing devices");
   return found.back();
 }
@@ -31,18 +34,18 @@ class Queue {
  public:
   explicit Queue(cl_device_id device) {
     cl_int status = CL_SUCCESS;
-    context_ = clCreateContext(nullptr, 1, &device, nullptr, nullptr, &status);
+    context_ = OPENCL(clCreateContext)(nullptr, 1, &device, nullptr, nullptr, &status);
     check(status, "creating a context");
-    queue_ = clCreateCommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE, &status);
-    if (status != CL_SUCCESS) clReleaseContext(context_);
+    queue_ = OPENCL(clCreateCommandQueue)(context_, device, CL_QUEUE_PROFILING_ENABLE, &status);
+    if (status != CL_SUCCESS) OPENCL(clReleaseContext)(context_);
     check(status, "creating a queue");
   }
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
   ~Queue() {
-    for (const cl_mem buffer : buffers_) clReleaseMemObject(buffer);
-    clReleaseCommandQueue(queue_);
-    clReleaseContext(context_);
+    for (const cl_mem buffer : buffers_) OPENCL(clReleaseMemObject)(buffer);
+    OPENCL(clReleaseCommandQueue)(queue_);
+    OPENCL(clReleaseContext)(context_);
   }
 
   cl_command_queue handle() const { return queue_; }
@@ -51,14 +54,15 @@ class Queue {
     cl_int status = CL_SUCCESS;
     const cl_mem_flags copy = from ? CL_MEM_COPY_HOST_PTR : 0;
     buffers_.push_back(
-        clCreateBuffer(context_, CL_MEM_READ_WRITE | copy, bytes, const_cast<void*>(from), &status));
+        OPENCL(clCreateBuffer)(context_, CL_MEM_READ_WRITE | copy, bytes, const_cast<void*>(from), &status));
     if (status != CL_SUCCESS) buffers_.pop_back();
     check(status, "creating a buffer");
     return buffers_.back();
   }
-  void finish() const { check(clFinish(queue_), "waiting for the device"); }
+  void finish() const { check(OPENCL(clFinish)(queue_), "waiting for the device"); }
   void read(cl_mem from, std::size_t bytes, void* to) const {
-    check(clEnqueueReadBuffer(queue_, from, CL_TRUE, 0, bytes, to, 0, nullptr, nullptr), "reading measures");
+    check(OPENCL(clEnqueueReadBuffer)(queue_, from, CL_TRUE, 0, bytes, to, 0, nullptr, nullptr),
+          "reading measures");
   }
 
  private:

@@ -34,6 +34,7 @@ struct DeviceInfo {
   std::uint64_t memory_bytes = 0;        ///< global memory
   std::uint64_t largest_allocation = 0;  ///< largest single buffer, bytes
   std::size_t max_work_group_size = 0;
+  bool unified_memory = false;  ///< its memory is the host's, as that of CPUs and integrated GPUs is
 
   /// "P:D", as `Device::choose` and `--device` accept it.
   std::string selector() const { return std::to_string(platform) + ":" + std::to_string(device); }
@@ -42,9 +43,21 @@ struct DeviceInfo {
 /// "cpu", "gpu", "accelerator" or "other".
 POWERCELL_API const char* name(DeviceInfo::Type type) noexcept;
 
-/// All devices of all platforms, in the order of the ICD loader. Empty without a platform.
-/// \throw Error opencl if a platform cannot be queried.
+/// All devices of all platforms, in the order of the ICD loader. Empty without a platform or an OpenCL
+/// loader. Those that cannot be used are left out (unusable_devices), with a line in the log. \throw Error
+/// opencl if the platforms cannot be listed; unsupported in a process that was forked after OpenCL was used.
 POWERCELL_API std::vector<DeviceInfo> devices();
+
+/// A device that OpenCL lists and that cannot be used, or a platform that cannot list its devices.
+struct UnusableDevice {
+  int platform = 0;
+  int device = -1;     ///< index within the platform; -1: the whole platform
+  std::string name;    ///< of the device or platform
+  std::string reason;  ///< one line
+};
+
+/// What devices() leaves out. \throw Error as devices()
+POWERCELL_API std::vector<UnusableDevice> unusable_devices();
 
 /// Compilation of kernels in this process, on all devices and in all threads.
 struct KernelBuilds {
@@ -60,10 +73,14 @@ class POWERCELL_API Device {
  public:
   /// Opens the device that `selector` names: "P:D" by index, a case-insensitive part of the device's or
   /// platform's name, or "cpu" / "gpu". An empty selector stands for the environment variable
-  /// POWERCELL_DEVICE; without it, for the GPU with the most compute units, else a CPU. Several of these with
+  /// POWERCELL_DEVICE; without it, for the best device. GPUs are better than CPUs, GPUs with memory of their
+  /// own than those that share the host's, and then those of more lanes times clock. Several selectors with
   /// commas between name a group of them, and "all" one of all devices, the best first. A device is returned
-  /// only if it passes a self-test (primitives with known results). \throw Error device_not_found,
-  /// self_test_failed, build_failed, opencl; invalid_argument (a device that is named twice)
+  /// only if it passes a self-test (primitives with known results). Without a wish, and for "gpu", "cpu" and
+  /// "all", a device that fails is set aside, with a line in the log, and the next one is taken; a device
+  /// that is named is refused with the reason. \throw Error device_not_found, self_test_failed, build_failed,
+  /// out_of_device_memory, opencl; invalid_argument (a device that is named twice); unsupported (a process
+  /// that was forked after OpenCL was used)
   static Device choose(std::string_view selector = {});
 
   /// Several devices as one. A diagram shares the clipping of its cells out to all of them by their speeds,

@@ -2,10 +2,7 @@
 /// For callers with OpenCL objects of their own. The only public header that needs the OpenCL headers.
 #pragma once
 
-#ifndef CL_TARGET_OPENCL_VERSION
-#define CL_TARGET_OPENCL_VERSION 120
-#endif
-#include <CL/cl.h>
+#include <powercell/c/opencl_types.h>
 
 #include <cstdint>
 #include <memory>
@@ -18,6 +15,12 @@ namespace powercell {
 /// A device in the caller's context, on the caller's in-order queue. Both are retained.
 /// \throw Error invalid_argument for a null or out-of-order queue; self_test_failed, build_failed, opencl
 POWERCELL_API Device device_from_queue(cl_command_queue queue);
+
+/// The function of OpenCL that the library calls: that of the process if it has one, else of the system's
+/// loader, which the first call opens. For programs that call OpenCL but are to start where there is none;
+/// they link no loader. \param name  "clCreateBuffer" and so on \return null if there is no loader, or none
+/// with this function
+POWERCELL_API void* opencl_function(const char* name);
 
 /// The state of a seed, as DeviceDiagram writes it: the values of SeedStatus, and two more.
 enum class DeviceSeedStatus : std::uint32_t {
@@ -189,7 +192,8 @@ class POWERCELL_API DeviceDiagram {
   void set_density(cl_mem values);
 
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the
-  /// caller's, of the context of the device, and must not change between the wait list and `done`.
+  /// caller's, of the context of the device, and must not change between the wait list and `done`. Those that
+  /// are written share no memory with any other, also as parts of one buffer (clCreateSubBuffer).
   /// \param positions  read: n x d reals, row-major
   /// \param weights    read: n reals; null means all zero
   /// \param n          at most 2^30; with 0 the buffers may be null
@@ -199,9 +203,8 @@ class POWERCELL_API DeviceDiagram {
   /// \param wait_list  these events
   /// \param done       if not null: the event of the last command, for the caller to release
   /// The queue is flushed. After an exception there is no event, commands may still be writing scratch memory
-  /// or results, and the diagram can be used again. \throw Error invalid_argument (a buffer that is too small
-  /// or of another context, which),
-  ///   out_of_device_memory, opencl
+  /// or results, and the diagram can be used again. \throw Error invalid_argument (a buffer that is too
+  /// small, of another context, or written and shared, which), out_of_device_memory, opencl
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                cl_uint wait_count = 0, const cl_event* wait_list = nullptr, cl_event* done = nullptr);
   /// The same with all that is wanted.

@@ -13,16 +13,26 @@ struct DeviceList {
   std::vector<DeviceText> text;
   std::vector<pc_device_info> info;
   std::vector<const pc_device_info*> devices;
+  std::vector<UnusableDevice> unusable;
+  std::vector<pc_unusable_device> unusable_views;
+  std::vector<const pc_unusable_device*> unusable_pointers;
 };
 
-void hand_over_list(const pc_device_list** list, std::vector<DeviceInfo> infos) {
+void hand_over_list(const pc_device_list** list, std::vector<DeviceInfo> infos,
+                    std::vector<UnusableDevice> unusable = {}) {
   DeviceList all;
   for (DeviceInfo& info : infos) all.text.emplace_back(std::move(info));
+  all.unusable = std::move(unusable);
   hand_over_result(list, std::move(all), [](pc_device_list& to, DeviceList& from) {
     for (const DeviceText& text : from.text) from.info.push_back(text.view());
     from.devices = pointers(from.info);
     to.count = from.devices.size();
     to.devices = pointer(from.devices);
+    for (const UnusableDevice& one : from.unusable)
+      from.unusable_views.push_back({one.platform, one.device, one.name.c_str(), one.reason.c_str()});
+    from.unusable_pointers = pointers(from.unusable_views);
+    to.unusable_count = from.unusable_pointers.size();
+    to.unusable = pointer(from.unusable_pointers);
   });
 }
 
@@ -47,6 +57,7 @@ pc_device_info DeviceText::view() const {
   to.memory_bytes = owned.memory_bytes;
   to.largest_allocation = owned.largest_allocation;
   to.max_work_group_size = owned.max_work_group_size;
+  to.unified_memory = owned.unified_memory;
   return to;
 }
 
@@ -66,7 +77,7 @@ const char* pc_device_kind_name(pc_device_kind kind) {
 pc_status pc_device_list_create(const pc_device_list** list) {
   return guarded([&] {
     result_at(list);
-    hand_over_list(list, devices());
+    hand_over_list(list, devices(), unusable_devices());
   });
 }
 

@@ -48,6 +48,10 @@ pc_status pc_device_from_queue(cl_command_queue queue, pc_device** device) {
   });
 }
 
+void* pc_opencl_function(const char* name) {
+  return name ? opencl_function(name) : nullptr;
+}
+
 pc_status pc_device_diagram_create(const pc_device* device, const pc_domain* domain,
                                    const pc_options* options, pc_device_diagram** diagram) {
   return guarded([&] {

@@ -4,15 +4,17 @@
 #include <cctype>
 #include <cstdlib>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <powercell/opencl.hpp>
+#include <tuple>
 #include <utility>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/self_test.hpp"
 #include "lib/cl/settings_file.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell {
 namespace cl {
@@ -40,16 +42,35 @@ bool is_indices(std::string_view selector) {
                      [&](const char& c) { return &c == &selector[colon] || (c >= '0' && c <= '9'); });
 }
 
-bool better(const DeviceInfo& a, const DeviceInfo& b) {
-  auto rank = [](DeviceInfo::Type type) {
-    return type == DeviceInfo::Type::gpu ? 2 : type == DeviceInfo::Type::cpu ? 1 : 0;
+/// Numbers that a compute unit works on at a time. Makers count units of very different sizes.
+unsigned lanes_of(const DeviceInfo& device) {
+  struct Maker {
+    const char* name;
+    unsigned lanes;
   };
-  return std::pair(rank(a.type), a.compute_units) > std::pair(rank(b.type), b.compute_units);
+  // Multiprocessors of NVIDIA, compute units of AMD, execution units of Intel, cores of Apple.
+  constexpr Maker makers[] = {
+      {"nvidia", 128}, {"advanced micro", 64}, {"amd", 64}, {"intel", 8}, {"apple", 128}};
+  const std::string vendor = lower(device.vendor);
+  for (const Maker& maker : makers)
+    if (vendor.find(maker.name) != std::string::npos) return maker.lanes;
+  return 32;
+}
+
+bool better(const DeviceInfo& a, const DeviceInfo& b) {
+  const auto rank = [](const DeviceInfo& device) {
+    const bool gpu = device.type == DeviceInfo::Type::gpu;
+    const int kind = gpu ? 2 : device.type == DeviceInfo::Type::cpu ? 1 : 0;
+    const std::uint64_t speed =
+        std::uint64_t{gpu ? lanes_of(device) : 1} * device.compute_units * std::max(device.clock_mhz, 1u);
+    return std::tuple(kind, gpu && !device.unified_memory, speed);
+  };
+  return rank(a) > rank(b);
 }
 
 std::string not_found_message(std::span<const DeviceInfo> devices, std::string_view selector,
                               std::string_view origin) {
-  if (devices.empty()) return no_device_message();
+  if (devices.empty()) return no_device_message({});
   std::string message = "no OpenCL device matches \"" + readable(std::string(selector), 100) + "\"" +
                         std::string(origin) + "; there are";
   const char* separator = " ";
@@ -60,6 +81,68 @@ std::string not_found_message(std::span<const DeviceInfo> devices, std::string_v
   return message +
          "; use \"P:D\", a part of a name, \"cpu\" or \"gpu\", several of these with commas between, or "
          "\"all\"";
+}
+
+/// Those that a selector stands for that is not "P:D".
+std::vector<std::size_t> best_first(std::span<const DeviceInfo> devices, const std::string& selector) {
+  std::vector<std::size_t> matching;
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    if (matches(devices[i], selector)) matching.push_back(i);
+  std::stable_sort(matching.begin(), matching.end(),
+                   [&](std::size_t a, std::size_t b) { return better(devices[a], devices[b]); });
+  return matching;
+}
+
+/// Whether the failure is one of a device, so that another one may do.
+bool is_of_device(const Error& error) {
+  switch (error.code()) {
+    case ErrorCode::build_failed:
+    case ErrorCode::self_test_failed:
+    case ErrorCode::out_of_device_memory:
+    case ErrorCode::opencl:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Device open(std::shared_ptr<SharedContext> shared, const DeviceInfo& info) {
+  auto context = std::make_shared<Context>(std::move(shared), info);
+  self_test(context);
+  return Device(std::move(context));
+}
+
+Device open(const FoundDevice& found) {
+  // A device that was lost fails in its old context, and may work in a new one.
+  if (auto shared = SharedContext::of_device(found.device)) try {
+      return open(std::move(shared), found.info);
+    } catch (const Error& error) {
+      if (!is_of_device(error)) throw;
+    }
+  return open(SharedContext::make(found.platform, found.device), found.info);
+}
+
+/// Opens `most` devices, the first of `order` that can be opened. \throw Error of the first that cannot, if
+/// none can
+std::vector<Device> open_those_that_work(const FoundDevices& found, std::span<const std::size_t> order,
+                                         std::size_t most) {
+  std::vector<Device> opened;
+  std::optional<Error> first;
+  for (const std::size_t k : order) {
+    if (opened.size() == most) break;
+    try {
+      opened.push_back(open(found.usable[k]));
+    } catch (const Error& error) {
+      if (!is_of_device(error)) throw;
+      const DeviceInfo& info = found.usable[k].info;
+      write_log(LogLevel::info, [&] {
+        return "the device " + info.selector() + " " + info.name + " is set aside: " + error.what();
+      });
+      if (!first) first = error;
+    }
+  }
+  if (opened.empty() && first) throw *first;
+  return opened;
 }
 
 }  // namespace
@@ -81,12 +164,8 @@ std::vector<std::size_t> select_devices(std::span<const DeviceInfo> devices, std
                                         std::string_view origin) {
   std::vector<std::size_t> chosen;
   if (lower(selectors) == "all") {
-    if (devices.empty()) throw Error(ErrorCode::device_not_found, no_device_message());
-    chosen.resize(devices.size());
-    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-    std::stable_sort(chosen.begin(), chosen.end(),
-                     [&](std::size_t a, std::size_t b) { return better(devices[a], devices[b]); });
-    return chosen;
+    if (devices.empty()) throw Error(ErrorCode::device_not_found, no_device_message({}));
+    return best_first(devices, "");
   }
   // A name may contain a comma itself.
   const bool is_name = std::any_of(devices.begin(), devices.end(), [&](const DeviceInfo& device) {
@@ -122,9 +201,11 @@ void require_single(const Device& device, std::string_view what) {
 }  // namespace cl
 
 Device Device::choose(std::string_view selector) {
-  const auto found = cl::find_devices();
+  const FloatEnvironment environment;
+  const cl::FoundDevices found = cl::find_devices();
   std::vector<DeviceInfo> infos;
-  for (const auto& entry : found) infos.push_back(entry.info);
+  for (const cl::FoundDevice& entry : found.usable) infos.push_back(entry.info);
+  if (infos.empty()) throw Error(ErrorCode::device_not_found, cl::no_device_message(found.unusable));
   std::string_view origin;
   if (selector.empty()) {
     if (const char* from_environment = std::getenv("POWERCELL_DEVICE"); from_environment) {
@@ -132,13 +213,21 @@ Device Device::choose(std::string_view selector) {
       origin = " (from the environment variable POWERCELL_DEVICE)";
     }
   }
-  std::vector<Device> opened;
-  for (const std::size_t k : cl::select_devices(infos, selector, origin)) {
-    const cl::FoundDevice& entry = found[k];
-    auto context = std::make_shared<cl::Context>(entry.platform, entry.device, entry.info);
-    cl::self_test(context);
-    opened.emplace_back(std::move(context));
+  const std::string wish = cl::lower(selector);
+  if (wish.empty() || wish == "gpu" || wish == "cpu" || wish == "all") {
+    const bool all = wish == "all";
+    const auto order = cl::best_first(infos, all ? "" : wish);
+    if (!order.empty()) return group(cl::open_those_that_work(found, order, all ? order.size() : 1));
   }
+  std::vector<std::size_t> chosen;
+  try {
+    chosen = cl::select_devices(infos, selector, origin);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::device_not_found) throw;
+    throw Error(error.code(), error.what() + cl::reasons(found.unusable));
+  }
+  std::vector<Device> opened;
+  for (const std::size_t k : chosen) opened.push_back(cl::open(found.usable[k]));
   return group(opened);
 }
 
@@ -178,6 +267,7 @@ void use_settings(const Device& device, const DeviceSettings& settings) {
 }
 
 Device device_from_queue(cl_command_queue queue) {
+  const FloatEnvironment environment;
   auto context = std::make_shared<cl::Context>(queue);
   cl::self_test(context);
   return Device(std::move(context));

@@ -27,31 +27,22 @@ void log_device(const DeviceInfo& info) {
   });
 }
 
-/// The indices by which `Device::choose` would find the caller's device; for a part of a device, the whole.
-void find_indices(cl_device_id device, DeviceInfo& info) {
+/// The device; for a part of a device, the whole.
+cl_device_id whole_of(cl_device_id device) {
   cl_device_id parent = device;
   for (cl_device_id up = device; up;) {
     parent = up;
     if (clGetDeviceInfo(parent, CL_DEVICE_PARENT_DEVICE, sizeof up, &up, nullptr) != CL_SUCCESS) break;
   }
-  for (const auto& found : find_devices())
-    if (found.device == parent) {
-      info.platform = found.info.platform;
-      info.device = found.info.device;
-    }
+  return parent;
 }
 
 }  // namespace
 
-Context::Context(cl_platform_id platform, cl_device_id device, DeviceInfo info)
-    : device_(device), info_(std::move(info)), settings_(measured_settings(info_)) {
+Context::Context(std::shared_ptr<SharedContext> shared, DeviceInfo info)
+    : shared_(std::move(shared)), info_(std::move(info)), settings_(measured_settings(info_)) {
   cl_int status = CL_SUCCESS;
-  const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
-                                              reinterpret_cast<cl_context_properties>(platform), 0};
-  context_ = clCreateContext(properties, 1, &device, nullptr, nullptr, &status);
-  check(status, "creating a context on " + info_.name);
-  queue_ = clCreateCommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE, &status);
-  if (status != CL_SUCCESS) clReleaseContext(context_);
+  queue_ = clCreateCommandQueue(context(), device(), CL_QUEUE_PROFILING_ENABLE, &status);
   check(status, "creating a queue on " + info_.name);
   log_device(info_);
 }
@@ -64,29 +55,22 @@ Context::Context(cl_command_queue queue) {
                 "the caller's command queue is out of order; create it without "
                 "CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE");
   profiles_ = (properties & CL_QUEUE_PROFILING_ENABLE) != 0;
-  device_ = queue_value<cl_device_id>(queue, CL_QUEUE_DEVICE);
+  const auto device = queue_value<cl_device_id>(queue, CL_QUEUE_DEVICE);
   cl_platform_id platform = nullptr;
-  check(clGetDeviceInfo(device_, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr),
+  check(clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr),
         "asking the caller's device for its platform");
-  info_ = describe(platform, device_);
-  find_indices(device_, info_);
+  info_ = describe(platform, device);
+  find_indices(platform, whole_of(device), info_);
   settings_ = measured_settings(info_);
-  const auto context = queue_value<cl_context>(queue, CL_QUEUE_CONTEXT);
-  check(clRetainContext(context), "retaining the caller's context");
-  if (const cl_int status = clRetainCommandQueue(queue); status != CL_SUCCESS) {
-    clReleaseContext(context);
-    check(status, "retaining the caller's queue");
-  }
-  context_ = context;
+  shared_ = SharedContext::of_caller(queue_value<cl_context>(queue, CL_QUEUE_CONTEXT), device);
+  check(clRetainCommandQueue(queue), "retaining the caller's queue");
   queue_ = queue;
   callers_queue_ = true;
   log_device(info_);
 }
 
 Context::~Context() {
-  programs_.clear();
   clReleaseCommandQueue(queue_);
-  clReleaseContext(context_);
 }
 
 double Context::build_seconds() const {
@@ -100,9 +84,7 @@ void Context::add_build_seconds(double seconds) {
 }
 
 bool Context::compiles_at_launch(const Program& program, const std::string& kernel, std::size_t local) {
-  if (!quirks_of(info_).compiles_at_launch) return false;
-  std::lock_guard lock(record_mutex_);
-  return launched_.emplace(program.handle(), kernel, local).second;
+  return quirks_of(info_).compiles_at_launch && shared_->is_first_launch(program.handle(), kernel, local);
 }
 
 LaunchSize& Context::launch_size(const Program& program, const std::string& kernel) {

@@ -2,30 +2,25 @@
 /// An OpenCL context with its in-order queue and its compiled programs. Internal.
 #pragma once
 
-#ifndef CL_TARGET_OPENCL_VERSION
-#define CL_TARGET_OPENCL_VERSION 120
-#endif
-#include <CL/cl.h>
-
 #include <map>
 #include <memory>
 #include <mutex>
 #include <powercell/device_settings.hpp>
-#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
-#include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "lib/cl/launch_size.hpp"
+#include "lib/cl/opencl.hpp"
+#include "lib/cl/shared_context.hpp"
 
 namespace powercell::cl {
 
 /// Throws unless `status` is CL_SUCCESS. \param what  the operation, for the message
-/// \throw Error out_of_device_memory for allocation failures, else opencl, naming the code and `what`
+/// \throw Error out_of_device_memory for allocation failures; unsupported in a forked process and where the
+/// loader lacks the function; else opencl, naming the code and `what`
 void check(cl_int status, std::string_view what);
 /// "CL_OUT_OF_RESOURCES" and so on for every code of OpenCL 1.2 and the ICD loader.
 std::string error_name(cl_int status);
@@ -50,17 +45,18 @@ struct Event {
 
 class Context {
  public:
-  Context(cl_platform_id platform, cl_device_id device, DeviceInfo info);
+  /// With a queue of its own. \throw Error opencl
+  Context(std::shared_ptr<SharedContext> shared, DeviceInfo info);
   explicit Context(cl_command_queue queue);  // retains
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
   ~Context();
 
-  cl_context context() const { return context_; }
+  cl_context context() const { return shared_->context(); }
   cl_command_queue queue() const { return queue_; }
   bool has_callers_queue() const { return callers_queue_; }
   bool profiles() const { return profiles_; }  ///< the queue
-  cl_device_id device() const { return device_; }
+  cl_device_id device() const { return shared_->device(); }
   const DeviceInfo& info() const { return info_; }
   const DeviceSettings& settings() const { return settings_; }
   /// To be called before the first diagram: kernels keep what they were built with.
@@ -91,24 +87,20 @@ class Context {
   /// Of the kernel. The caller holds record_mutex_.
   LaunchSize& launch_size(const Program& program, const std::string& kernel);
 
-  cl_context context_ = nullptr;
+  std::shared_ptr<SharedContext> shared_;
   cl_command_queue queue_ = nullptr;
   bool callers_queue_ = false;
   bool profiles_ = true;
-  cl_device_id device_ = nullptr;
   DeviceInfo info_;
   DeviceSettings settings_;
   double build_seconds_ = 0;
-  std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
   std::map<std::pair<cl_program, std::string>, LaunchSize> launch_sizes_;
   struct Write {
     std::thread::id thread;
     std::weak_ptr<const Event> event;
   };
   std::vector<Write> writes_;        // noted and not known to be done
-  mutable std::mutex record_mutex_;  // guards build_seconds_, launched_, launch_sizes_ and writes_
-  std::mutex mutex_;  // guards programs_, also during a build, so that each program is built once
-  std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
+  mutable std::mutex record_mutex_;  // guards build_seconds_, launch_sizes_ and writes_
 };
 
 }  // namespace powercell::cl

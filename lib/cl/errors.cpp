@@ -79,6 +79,14 @@ const char* known_name(cl_int status) {
 
 #undef POWERCELL_CODE
 
+[[noreturn]] void fail_forked() {
+  throw Error(
+      ErrorCode::unsupported,
+      "this process was forked from one that had used OpenCL, whose threads it lacks: fork before the first "
+      "use of powercell, or start processes anew (posix_spawn, fork with exec; in Python the start methods "
+      "'spawn' and 'forkserver')");
+}
+
 [[noreturn]] void fail(ErrorCode code, cl_int status, std::string_view what) {
   throw Error(
       code, std::string(what) + ": OpenCL says " + error_name(status) + " (" + std::to_string(status) + ")");
@@ -99,9 +107,23 @@ void check(cl_int status, std::string_view what) {
     case CL_OUT_OF_HOST_MEMORY:
     case CL_INVALID_BUFFER_SIZE:
       fail(ErrorCode::out_of_device_memory, status, what);
+    case status_forked:
+      fail_forked();
+    case status_not_found:
+      throw Error(ErrorCode::unsupported,
+                  std::string(what) + ": the OpenCL loader of this machine lacks a function of OpenCL 1.2");
     default:
       fail(ErrorCode::opencl, status, what);
   }
+}
+
+void check_query(cl_int status, std::string_view what) {
+  if (status == CL_OUT_OF_HOST_MEMORY || status == CL_OUT_OF_RESOURCES) fail(ErrorCode::opencl, status, what);
+  check(status, what);
+}
+
+void require_not_forked() {
+  if (is_forked()) fail_forked();
 }
 
 void check_allocation(cl_int status, std::string_view what) {

@@ -12,4 +12,11 @@ namespace powercell::cl {
 /// a kernel's registers or a lost device.
 void check_allocation(cl_int status, std::string_view what);
 
+/// As `check`, after a query for which nothing is allocated on the device: drivers without their kernel
+/// module answer CL_OUT_OF_HOST_MEMORY. \throw Error opencl
+void check_query(cl_int status, std::string_view what);
+
+/// \throw Error unsupported in a process that was forked after OpenCL was used
+void require_not_forked();
+
 }  // namespace powercell::cl

@@ -174,23 +174,21 @@ std::shared_ptr<const Program> build_program(const Context& context, const Progr
 std::shared_ptr<const Program> Context::program(std::string_view file,
                                                 const std::vector<std::string>& defines) {
   const std::string options = build_options(defines);
-  const std::string key = std::string(file) + '\n' + options;
-  std::lock_guard lock(mutex_);
-  if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
-  const BuildClock clock;
-  const ProgramRequest request{"kernels/" + std::string(file), expand_includes(embedded_kernels(), file),
-                               options};
-  const DiskCache cache(DiskCache::default_folder());
-  ProgramOrigin origin{};
-  auto program = build_program(*this, request, uses_disk_cache(*this) ? &cache : nullptr, &origin);
-  const bool compiled = origin == ProgramOrigin::compiled;
-  const double seconds = compiled ? clock.done(*this) : clock.seconds();
-  write_log(compiled ? LogLevel::info : LogLevel::detail, [&] {
-    return request.name + (compiled ? " built in " : " taken from the cache in ") + in_seconds(seconds) +
-           ": " + options;
+  return shared_->program(std::string(file) + '\n' + options, [&] {
+    const BuildClock clock;
+    const ProgramRequest request{"kernels/" + std::string(file), expand_includes(embedded_kernels(), file),
+                                 options};
+    const DiskCache cache(DiskCache::default_folder());
+    ProgramOrigin origin{};
+    auto program = build_program(*this, request, uses_disk_cache(*this) ? &cache : nullptr, &origin);
+    const bool compiled = origin == ProgramOrigin::compiled;
+    const double seconds = compiled ? clock.done(*this) : clock.seconds();
+    write_log(compiled ? LogLevel::info : LogLevel::detail, [&] {
+      return request.name + (compiled ? " built in " : " taken from the cache in ") + in_seconds(seconds) +
+             ": " + options;
+    });
+    return program;
   });
-  programs_.emplace(key, program);
-  return program;
 }
 
 }  // namespace powercell::cl

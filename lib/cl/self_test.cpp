@@ -1,6 +1,7 @@
 #include "lib/cl/self_test.hpp"
 
 #include "lib/cl/accuracy.hpp"
+#include "lib/cl/host_arithmetic.hpp"
 #include "lib/cl/program.hpp"
 #include "lib/cl/self_test_results.hpp"
 #include "lib/report/log.hpp"
@@ -66,6 +67,10 @@ void test_arithmetic(const ContextPointer& context, const ProgramPointer& progra
 }  // namespace
 
 void self_test(const std::shared_ptr<Context>& context) {
+  if (const std::string fault = host_arithmetic_fault(); !fault.empty())
+    throw Error(ErrorCode::self_test_failed,
+                "this build of powercell computes wrongly on the host: " + fault +
+                    "; compile it without -ffast-math and with its own CMake project");
   const bool fp64 = context->info().fp64;
   const auto program =
       context->program("base/self_test.cl", {fp64 ? "SELF_TEST_DOUBLE=1" : "SELF_TEST_DOUBLE=0"});

@@ -19,8 +19,8 @@ DeviceDensity::DeviceDensity(const DomainBuffers& domain, const std::vector<std:
       moments_(domain.context()) {}
 
 void DeviceDensity::set(cl_mem values) {
-  if (values) cl::check(clRetainMemObject(values), "retaining the caller's buffer of the density");
-  if (values_) clReleaseMemObject(values_);
+  if (values) cl::check(cl::clRetainMemObject(values), "retaining the caller's buffer of the density");
+  if (values_) cl::clReleaseMemObject(values_);
   values_ = values;
 }
 

@@ -245,7 +245,7 @@ void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32
   if (cells)
     geometry_->write(clipped(n), results.status, frame_.handle(), positions, results.cells, rooms.cells);
   if (cells && done)
-    cl::check(clEnqueueMarkerWithWaitList(device.context()->queue(), 0, nullptr, done),
+    cl::check(cl::clEnqueueMarkerWithWaitList(device.context()->queue(), 0, nullptr, done),
               "enqueueing a marker");
 }
 

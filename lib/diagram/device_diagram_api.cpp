@@ -2,8 +2,10 @@
 #include <powercell/opencl.hpp>
 #include <powercell/seeds.hpp>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/base/nodal_values.hpp"
 #include "lib/diagram/device_diagram.hpp"
+#include "lib/diagram/separate_buffers.hpp"
 
 namespace powercell {
 namespace {
@@ -13,7 +15,7 @@ constexpr std::size_t shift_bytes = 3 * sizeof(cl_int);
 template <class T>
 T memory_value(cl_mem memory, cl_mem_info which, const char* name) {
   T value{};
-  cl::check(clGetMemObjectInfo(memory, which, sizeof value, &value, nullptr),
+  cl::check(cl::clGetMemObjectInfo(memory, which, sizeof value, &value, nullptr),
             std::string("asking the caller's buffer of ") + name + " for a property");
   return value;
 }
@@ -129,6 +131,37 @@ CellRooms room_for_cells(const DeviceDiagram::State& s, std::uint32_t n, const D
   return rooms;
 }
 
+void require_separate(const Job& job, cl_mem density) {
+  const DeviceResults& to = job.results;
+  const CallersBuffer buffers[] = {
+      {job.positions, "positions", false},
+      {job.weights, "weights", false},
+      {density, "the values of the density", false},
+      {to.measures, "measures", true},
+      {to.status, "status", true},
+      {to.adjacency.offset, "offsets", true},
+      {to.adjacency.neighbor, "neighbors", true},
+      {to.adjacency.wall, "walls", true},
+      {to.adjacency.shift, "shifts", true},
+      {to.uncertain.count, "the number of uncertain seeds", true},
+      {to.uncertain.seeds, "uncertain seeds", true},
+      {to.cells.counts, "the counts of cells", true},
+      {to.cells.cell_offset, "the offsets of cells", true},
+      {to.cells.region, "the regions of pieces", true},
+      {to.cells.vertex_offset, "the offsets of vertices", true},
+      {to.cells.vertices, "vertices", true},
+      {to.cells.face_offset, "the offsets of faces", true},
+      {to.cells.border, "the borders of faces", true},
+      {to.cells.shift, "the shifts of faces", true},
+      {to.cells.loop_offset, "the offsets of loops", true},
+      {to.cells.loop, "loops", true},
+      {to.boundary_walls.offset, "the offsets of boundary walls", true},
+      {to.boundary_walls.facet, "the facets of boundary walls", true},
+      {to.boundary_walls.measure, "the measures of boundary walls", true},
+  };
+  powercell::require_separate(buffers);
+}
+
 /// \throw Error invalid_argument
 Rooms checked(const DeviceDiagram::State& s, const Job& job) {
   if (job.n > most_seeds_of_diagram)
@@ -145,10 +178,12 @@ Rooms checked(const DeviceDiagram::State& s, const Job& job) {
     require_buffer(context, results.measures, job.n * (2 + d) * real, "measures");
     require_buffer(context, results.status, job.n * sizeof(cl_uint), "status");
   }
-  return {wants_rows(results) ? room_for_rows(s, job.n, results.adjacency) : 0,
-          wants_list(results) ? room_for_list(s, job.n, results.uncertain) : 0,
-          wants_cells(results) ? room_for_cells(s, job.n, results.cells) : CellRooms{},
-          wants_boundary(results) ? room_for_boundary(s, job.n, results.boundary_walls) : 0};
+  const Rooms rooms{wants_rows(results) ? room_for_rows(s, job.n, results.adjacency) : 0,
+                    wants_list(results) ? room_for_list(s, job.n, results.uncertain) : 0,
+                    wants_cells(results) ? room_for_cells(s, job.n, results.cells) : CellRooms{},
+                    wants_boundary(results) ? room_for_boundary(s, job.n, results.boundary_walls) : 0};
+  require_separate(job, s.density());
+  return rooms;
 }
 
 /// The diagram of no seeds.
@@ -157,7 +192,7 @@ void enqueue_nothing(const cl::Context& context, const DeviceResults& results, c
     const cl_uint zero = 0;
     if (memory)
       cl::check(
-          clEnqueueFillBuffer(context.queue(), memory, &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
+          cl::clEnqueueFillBuffer(context.queue(), memory, &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
           "writing the results of no seeds");
   };
   write_zeros(results.adjacency.offset, sizeof(cl_uint));
@@ -165,7 +200,8 @@ void enqueue_nothing(const cl::Context& context, const DeviceResults& results, c
   write_zeros(results.cells.counts, 4 * sizeof(cl_ulong));
   write_zeros(results.cells.cell_offset, sizeof(cl_ulong));
   write_zeros(results.boundary_walls.offset, sizeof(cl_uint));
-  if (done) cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
+  if (done)
+    cl::check(cl::clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
 }
 
 void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_event* wait_list,
@@ -174,15 +210,15 @@ void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_e
   const Rooms rooms = checked(s, job);
   // The queue is in order, so all later commands wait for the caller's events too.
   if (wait_count > 0)
-    cl::check(clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
+    cl::check(cl::clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
               "enqueueing a barrier for the caller's events");
   if (job.n > 0)
     s.enqueue(job.positions, job.weights, job.n, job.results, rooms, done);
   else
     enqueue_nothing(context, job.results, done);
-  const cl_int flushed = clFlush(context.queue());
+  const cl_int flushed = cl::clFlush(context.queue());
   if (flushed != CL_SUCCESS && done) {  // callers get no event with an exception
-    clReleaseEvent(*done);
+    cl::clReleaseEvent(*done);
     *done = nullptr;
   }
   cl::check(flushed, "flushing the caller's queue");
@@ -191,6 +227,7 @@ void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_e
 }  // namespace
 
 DeviceDiagram::DeviceDiagram(Device device, Domain domain, Options options) {
+  const FloatEnvironment environment;
   if (options.neighbors == Neighbors::flann)
     throw Error(ErrorCode::unsupported,
                 "FLANN makes neighbour lists on the host, so a diagram in device memory cannot use them; use "
@@ -227,6 +264,7 @@ void DeviceDiagram::set_wall_capacity(std::uint32_t walls) {
 }
 
 void DeviceDiagram::set_density(cl_mem values) {
+  const FloatEnvironment environment;
   if (values) {
     require_simplices(state_->domain);
     const std::size_t vertices = state_->domain.regions().vertices.size() / 3;
@@ -238,16 +276,19 @@ void DeviceDiagram::set_density(cl_mem values) {
 
 void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                             cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
+  const FloatEnvironment environment;
   run(*state_, {positions, weights, n, {measures, status}}, wait_count, wait_list, done);
 }
 
 void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
                             cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
+  const FloatEnvironment environment;
   run(*state_, {positions, weights, n, results}, wait_count, wait_list, done);
 }
 
 std::uint32_t DeviceDiagram::repair(cl_mem positions, cl_mem weights, std::uint32_t n,
                                     const DeviceResults& results) {
+  const FloatEnvironment environment;
   if (!wants_list(results))
     throw Error(ErrorCode::invalid_argument,
                 "the results have no list of uncertain seeds; enqueue the diagram with one");

@@ -30,8 +30,8 @@ Options repairing(Options options) {
 /// One number of a buffer. Waits.
 cl_uint read_number(const std::shared_ptr<cl::Context>& context, cl_mem memory, std::size_t at) {
   cl_uint value = 0;
-  cl::check(clEnqueueReadBuffer(context->queue(), memory, CL_TRUE, at * sizeof value, sizeof value, &value, 0,
-                                nullptr, nullptr),
+  cl::check(cl::clEnqueueReadBuffer(context->queue(), memory, CL_TRUE, at * sizeof value, sizeof value,
+                                    &value, 0, nullptr, nullptr),
             "reading a number from the caller's buffer");
   context->check_writes();
   return value;
@@ -40,8 +40,8 @@ cl_uint read_number(const std::shared_ptr<cl::Context>& context, cl_mem memory, 
 template <class T>
 void write(const cl::Context& context, cl_mem memory, const std::vector<T>& values) {
   if (values.empty()) return;
-  cl::check(clEnqueueWriteBuffer(context.queue(), memory, CL_TRUE, 0, values.size() * sizeof(T),
-                                 values.data(), 0, nullptr, nullptr),
+  cl::check(cl::clEnqueueWriteBuffer(context.queue(), memory, CL_TRUE, 0, values.size() * sizeof(T),
+                                     values.data(), 0, nullptr, nullptr),
             "writing repaired results to the caller's buffer");
 }
 

@@ -72,8 +72,8 @@ void write_boundary(const cl::Context& context, const DeviceBoundaryWalls& to, c
                     bool float32) {
   const auto write = [&](cl_mem memory, const auto& values) {
     if (values.empty()) return;
-    cl::check(clEnqueueWriteBuffer(context.queue(), memory, CL_TRUE, 0, values.size() * sizeof values[0],
-                                   values.data(), 0, nullptr, nullptr),
+    cl::check(cl::clEnqueueWriteBuffer(context.queue(), memory, CL_TRUE, 0, values.size() * sizeof values[0],
+                                       values.data(), 0, nullptr, nullptr),
               "writing repaired boundary walls to the caller's buffer");
   };
   write(to.offset, std::vector<cl_uint>(walls.offset.begin(), walls.offset.end()));

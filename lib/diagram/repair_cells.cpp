@@ -121,8 +121,8 @@ void require_room(const Cells& cells, const CellRooms& room) {
 void write_cells(const cl::Context& context, const DeviceCells& to, const Cells& cells, bool float32) {
   const auto write = [&](cl_mem memory, const auto& values) {
     if (values.empty() || !memory) return;
-    cl::check(clEnqueueWriteBuffer(context.queue(), memory, CL_TRUE, 0, values.size() * sizeof values[0],
-                                   values.data(), 0, nullptr, nullptr),
+    cl::check(cl::clEnqueueWriteBuffer(context.queue(), memory, CL_TRUE, 0, values.size() * sizeof values[0],
+                                       values.data(), 0, nullptr, nullptr),
               "writing repaired cells to the caller's buffer");
   };
   const CellRooms counts = counts_of(cells);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional, Union
@@ -27,6 +28,8 @@ class Device:
     memory, largest_allocation : int
         Bytes of global memory, and of its largest single buffer.
     max_work_group_size : int
+    unified_memory : bool
+        Whether its memory is the host's.
     queue : pyopencl.CommandQueue or None
         That of :meth:`from_queue`.
     """
@@ -52,6 +55,7 @@ class Device:
         self.memory: int = info.memory
         self.largest_allocation: int = info.largest_allocation
         self.max_work_group_size: int = info.max_work_group_size
+        self.unified_memory: bool = info.unified_memory
 
     @classmethod
     def choose(cls, selector: str = "") -> Device:
@@ -149,12 +153,34 @@ def devices() -> list[Device]:
     return [Device(info) for info in _core.devices()]
 
 
+class UnusableDevice(NamedTuple):
+    """A device that OpenCL lists and that cannot be used, or a platform that cannot list its devices."""
+
+    platform: int
+    device: int  #: Index within the platform; -1 for the whole platform.
+    name: str  #: Of the device or platform.
+    reason: str
+
+
+def unusable_devices() -> list[UnusableDevice]:
+    """What :func:`devices` leaves out, with the reason.
+
+    >>> import powercell as pc
+    >>> all(unusable.reason for unusable in pc.unusable_devices())
+    True
+    """
+    return [UnusableDevice(*row) for row in _core.unusable_devices()]
+
+
 def _open(selector: str) -> Any:
-    _core.require_same_process()
     with Device._opening:
         if selector not in Device._opened:
             Device._opened[selector] = _core.Device.choose(selector)
         return Device._opened[selector]
+
+
+if hasattr(os, "register_at_fork"):  # OpenCL does not survive a fork, and what was opened refuses all calls
+    os.register_at_fork(after_in_child=Device._opened.clear)
 
 
 #: What names a device: of a group a list.
@@ -163,7 +189,6 @@ DeviceLike = Union[None, str, Device, "Sequence[Union[str, Device]]"]
 
 def open_device(device: DeviceLike) -> Any:
     """The opened device: each is opened, tested and given its programs once a process."""
-    _core.require_same_process()
     if device is None:
         return _open("")
     if isinstance(device, str):

@@ -1,5 +1,4 @@
-"""Loads OpenCL before the extension needs it: the system's loader, else the one that a wheel carries; and makes a driver from
-a Python package visible where the system has none."""
+"""Where the system has no OpenCL: the loader that a wheel carries, and a driver from a Python package."""
 
 from __future__ import annotations
 
@@ -15,18 +14,14 @@ VENDORS = Path("/etc/OpenCL/vendors")
 PACKAGE, LIBRARY = "intel-opencl-rt", "libintelocl.so"  # powercell[cpu]
 
 
-def open_loader() -> None:
-    """The extension names its loader as LOADER, and the dynamic linker then takes the library of that name that is open."""
-    errors = []
+def open_carried_loader() -> None:
+    """The library opens a loader by its name and finds one that is open already. Without any it says so when it is used."""
     for name in (LOADER, str(CARRIED)):
         try:
             ctypes.CDLL(name)  # it stays open
             return
-        except OSError as error:
-            errors.append(str(error))
-    raise ImportError(
-        "powercell found no OpenCL loader (" + "; ".join(errors) + "): install one, on Debian with: apt-get install ocl-icd-libopencl1"
-    )
+        except OSError:
+            pass
 
 
 def packaged_driver() -> str:
@@ -47,8 +42,8 @@ def show_packaged_driver() -> None:
         os.environ.update(dict.fromkeys(variables, library))
 
 
-def prepare() -> None:
+def provide_opencl() -> None:
     """Called before the extension is loaded."""
     if sys.platform.startswith("linux"):
-        open_loader()
+        open_carried_loader()
         show_packaged_driver()

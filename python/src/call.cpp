@@ -27,14 +27,6 @@ constexpr std::chrono::milliseconds while_ending(1);
 
 }  // namespace
 
-void require_same_process() {
-  static const pid_t first = getpid();  // set by the call that opens the first device
-  if (getpid() != first)
-    throw Error(ErrorCode::unsupported,
-                "this process was forked from one that has used powercell, and OpenCL does not survive that: "
-                "start processes with multiprocessing's method 'spawn' or 'forkserver'");
-}
-
 InFlight::InFlight() {
   if (ends && std::this_thread::get_id() == ending_thread)
     throw Error(ErrorCode::unsupported, "powercell cannot be called when the interpreter ends");

@@ -12,10 +12,6 @@
 
 namespace powercell::python {
 
-/// \throw Error unsupported in a process that was forked after a device was opened: the OpenCL runtime's
-/// threads are not there
-void require_same_process();
-
 /// While one lives, a thread may be without the interpreter's lock; made and destroyed with it. The
 /// interpreter's end waits for all of them, and no thread comes back from one after that: it would take a
 /// lock that is gone.
@@ -54,7 +50,6 @@ class Call {
   /// Runs `function` without the interpreter's lock.
   template <class Function>
   auto run(const Function& function) {
-    require_same_process();
     try {
       return without_lock(function);
     } catch (...) {

@@ -19,12 +19,15 @@ void bind_devices(nb::module_& m) {
       .def_ro("largest_allocation", &DeviceInfo::largest_allocation)
       .def_ro("max_work_group_size", &DeviceInfo::max_work_group_size)
       .def_ro("memory", &DeviceInfo::memory_bytes)
+      .def_ro("unified_memory", &DeviceInfo::unified_memory)
       .def_prop_ro("selector", &DeviceInfo::selector);
-  m.def("devices", [] {
-    require_same_process();
-    return devices();
+  m.def("devices", &devices);
+  m.def("unusable_devices", [] {
+    nb::list all;
+    for (const UnusableDevice& one : unusable_devices())
+      all.append(nb::make_tuple(one.platform, one.device, one.name, one.reason));
+    return all;
   });
-  m.def("require_same_process", &require_same_process);
 
   nb::class_<Device>(m, "Device")
       .def_static(

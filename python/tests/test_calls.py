@@ -179,7 +179,7 @@ spec = importlib.util.spec_from_file_location("runtime", folder / "_runtime.py")
 runtime = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(runtime)
 runtime.VENDORS = pathlib.Path("/no/such/folder")
-runtime.prepare()
+runtime.provide_opencl()
 import powercell as pc
 names = [device.platform for device in pc.devices()]
 assert names and all("Intel" in name for name in names), names

@@ -41,10 +41,10 @@ def test_what_was_made_before_a_fork_is_refused_in_the_child(rng, square):
     def child():
         said = []
         for call in (
-            lambda: diagram.mass,
-            lambda: diagram.set_weights(np.zeros(200)),
-            lambda: diagram.set_seeds(p),
             lambda: diagram.cells,
+            lambda: (diagram.set_weights(np.ones(200)), diagram.mass),
+            lambda: (diagram.set_seeds(p), diagram.mass),
+            lambda: pc.Diagram(square, p).mass,
             solver.solve,
             lambda: pc.sample(square, 10),
             pc.Device.choose,

@@ -1,4 +1,6 @@
 // Diagrams from device memory to device memory, from C.
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
 #include <powercell_opencl.h>
 
 #include <cmath>

@@ -8,7 +8,7 @@ typedef int (*read_t)(void*, void*, unsigned, size_t, size_t, void*, unsigned, c
 
 int clEnqueueReadBuffer(void* queue, void* buffer, unsigned blocking, size_t offset, size_t bytes, void* to,
                         unsigned waits, const void* wait_list, void* event) {
-  const read_t real = (read_t)dlsym(RTLD_NEXT, "clEnqueueReadBuffer");
+  const read_t real = (read_t)dlsym(dlopen("libOpenCL.so.1", RTLD_NOW), "clEnqueueReadBuffer");
   const int status = real(queue, buffer, blocking, offset, bytes, to, waits, wait_list, event);
   if (bytes == 1024 * 7 * sizeof(double)) ((double*)to)[2] *= 1 + 1e-12;
   return status;

@@ -2,6 +2,8 @@
 /// OpenCL objects of a caller of the library.
 #pragma once
 
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
 #include <doctest/doctest.h>
 
 #include <cstdint>

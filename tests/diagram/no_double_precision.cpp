@@ -15,12 +15,9 @@ namespace {
 /// The test device as if it had no double precision.
 Device single_precision_device() {
   const auto real = test_context();
-  cl_platform_id platform = nullptr;
-  cl::check(clGetDeviceInfo(real->device(), CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr),
-            "asking for the platform");
   DeviceInfo info = real->info();
   info.fp64 = false;
-  return Device(std::make_shared<cl::Context>(platform, real->device(), info));
+  return Device(std::make_shared<cl::Context>(cl::SharedContext::of_device(real->device()), info));
 }
 
 }  // namespace

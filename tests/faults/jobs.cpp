@@ -7,6 +7,7 @@
 #include <powercell/regions.hpp>
 
 #include "lib/cl/context.hpp"
+#include "lib/cl/self_test.hpp"
 
 namespace powercell::test {
 namespace {
@@ -283,11 +284,18 @@ JobKind open_job(const Setup& setup) {
 }
 
 JobKind device_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds) {
-  const std::string selector = setup.device.info().selector();
-  return {"Device and Diagram, " + domain.name + ", " + setup.name, [=] {
-            return std::make_unique<DiagramJob>([=] { return Device::choose(selector); }, setup, domain,
-                                                seeds);
-          }};
+  const auto fresh = [known =
+                          setup.device] {  // Device::choose would share the programs of those that are open
+    const cl_device_id device = known.context()->device();
+    cl_platform_id platform = nullptr;
+    cl::check(cl::clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr),
+              "asking for the platform");
+    auto context = std::make_shared<cl::Context>(cl::SharedContext::make(platform, device), known.info());
+    cl::self_test(context);
+    return Device(std::move(context));
+  };
+  return {"Device and Diagram, " + domain.name + ", " + setup.name,
+          [=] { return std::make_unique<DiagramJob>(fresh, setup, domain, seeds); }};
 }
 
 JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds) {

@@ -37,7 +37,7 @@ JobKind diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArr
 JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 /// Only Device::choose.
 JobKind open_job(const Setup& setup);
-/// Device::choose and a small diagram on that device, so that every program is built in the job.
+/// A device in a context of its own and a small diagram on it, so that every program is built in the job.
 JobKind device_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 
 /// Few seeds in a polygon, on a surface, in a volume, in a box, and in strips, with cells too thin to be

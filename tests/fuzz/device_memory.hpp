@@ -2,6 +2,9 @@
 /// Memory of the caller on the device that the targets share.
 #pragma once
 
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
 #include <cstdint>
 #include <powercell/opencl.hpp>
 #include <stdexcept>

@@ -4,7 +4,7 @@ find_package(OpenCL REQUIRED)  # device_diagrams.cpp has a context of its own
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 # Readers of the commands' own files, compiled here so that the sanitizers' build is without the commands.
-set(command_readers saved bench/saved_record bench/record bench/work)
+set(command_readers saved bench/saved_record bench/record bench/repeated bench/work)
 list(TRANSFORM command_readers REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/\\1.cpp")
 target_sources(test_fuzz PRIVATE ${command_readers})
 target_link_libraries(test_fuzz PRIVATE fmt::fmt nlohmann_json::nlohmann_json)

@@ -39,15 +39,27 @@ typedef struct pc_device_info {
   uint64_t memory_bytes;       /**< global memory */
   uint64_t largest_allocation; /**< largest single buffer, bytes */
   size_t max_work_group_size;
+  int unified_memory; /**< not 0: its memory is the host's, as that of CPUs and integrated GPUs is */
 } pc_device_info;
+
+/** A device that OpenCL lists and that cannot be used, or a platform that cannot list its devices. */
+typedef struct pc_unusable_device {
+  int platform;
+  int device;         /**< index within the platform; -1: the whole platform */
+  const char* name;   /**< of the device or platform */
+  const char* reason; /**< one line */
+} pc_unusable_device;
 
 /** All devices of all platforms, in the order of the ICD loader. */
 typedef struct pc_device_list {
   size_t count;
   const pc_device_info* const* devices; /**< count pointers */
+  size_t unusable_count;                /**< of pc_device_list_create(); else 0 */
+  const pc_unusable_device* const* unusable;
 } pc_device_list;
 
-/** Lists the devices of this machine; none without a platform. */
+/** Lists the devices of this machine, and apart from them those that cannot be used; none without a platform
+ * or an OpenCL loader. PC_UNSUPPORTED in a process that was forked after OpenCL was used. */
 POWERCELL_API pc_status pc_device_list_create(const pc_device_list** list);
 POWERCELL_API void pc_device_list_destroy(const pc_device_list* list);
 
