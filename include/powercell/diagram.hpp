@@ -80,6 +80,12 @@ class POWERCELL_API Diagram {
   std::unique_ptr<State> state_;
 };
 
+/// Builds and tests the kernels that diagrams of this kind run on the device, so that the first one takes no
+/// longer than the next ones: computes three small ones, with all results. What is built lasts as long as a
+/// Device of the process on the same device, and in a cache on disk. \param options  `progress` is called as
+/// by a diagram. \throw as Diagram
+POWERCELL_API void prepare(const Device& device, const Domain& domain, const Options& options = {});
+
 /// One-off measures of the cells. \throw as Diagram
 POWERCELL_API Measures measure(const Device& device, const Domain& domain, const SeedsView& seeds,
                                const Options& options = {});

@@ -35,6 +35,10 @@ pc_status pc_diagram_create(const pc_device* device, const pc_domain* domain, co
   });
 }
 
+pc_status pc_prepare(const pc_device* device, const pc_domain* domain, const pc_options* options) {
+  return guarded([&] { prepare(device_in(device), domain_in(domain), options_of(options)); });
+}
+
 void pc_diagram_destroy(pc_diagram* diagram) {
   if (diagram && diagram->own) delete diagram;
 }

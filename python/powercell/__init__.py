@@ -7,9 +7,9 @@
 True
 """
 
-from ._runtime import prepare
+from ._runtime import provide_opencl
 
-prepare()
+provide_opencl()
 
 from . import _core  # noqa: E402
 from ._core import (  # noqa: E402
@@ -34,11 +34,13 @@ from ._device import (  # noqa: E402
     DeviceRates,
     DeviceTransfers,
     KernelBuilds,
+    UnusableDevice,
     devices,
     kernel_builds,
     measure_device_latencies,
     measure_device_rates,
     measure_device_transfers,
+    unusable_devices,
 )
 from ._device_cells import DeviceCells  # noqa: E402
 from ._device_results import (  # noqa: E402
@@ -48,7 +50,7 @@ from ._device_results import (  # noqa: E402
     DeviceStatus,
     DeviceUncertain,
 )
-from ._diagram import Diagram, regular_triangulation  # noqa: E402
+from ._diagram import Diagram, prepare, regular_triangulation  # noqa: E402
 from ._distributed import compute_distributed  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
@@ -77,8 +79,8 @@ __all__ = [
     "DeviceBoundaryWalls",
     "DeviceCells",
     "DeviceDiagram",
-    "DeviceMeasures",
     "DeviceLatencies",
+    "DeviceMeasures",
     "DeviceRates",
     "DeviceStatus",
     "DeviceTransfers",
@@ -104,6 +106,7 @@ __all__ = [
     "Status",
     "TransportSolver",
     "Treemap",
+    "UnusableDevice",
     "ball",
     "compute_distributed",
     "compute_out_of_core",
@@ -115,6 +118,7 @@ __all__ = [
     "measure_device_rates",
     "measure_device_transfers",
     "mesh_quality",
+    "prepare",
     "random_points",
     "read_domain",
     "read_seeds",
@@ -129,4 +133,5 @@ __all__ = [
     "torus",
     "transport",
     "treemap",
+    "unusable_devices",
 ]

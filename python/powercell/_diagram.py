@@ -407,6 +407,39 @@ class Diagram:
         return f"<table><caption>powercell.Diagram</caption>{rows}</table>"
 
 
+def prepare(
+    domain: Domain,
+    *,
+    device: DeviceLike = None,
+    precision: str = "auto",
+    neighbors: str = "auto",
+    threads: int = 0,
+    progress: Progress = None,
+) -> None:
+    """Builds and tests the kernels that diagrams of this kind run on the device, so that the first one takes no longer
+    than the next ones: computes three small ones, with all results. What is built lasts as long as the process, and in a
+    cache on disk.
+
+    Parameters
+    ----------
+    domain : Domain
+    device, precision, neighbors, threads
+        As for :class:`Diagram`.
+    progress : bool or callable, optional
+        True for a bar, or a function of the fraction done, which may return False to stop.
+
+    Examples
+    --------
+    >>> import powercell as pc
+    >>> pc.prepare(pc.Domain.box([0, 0], [1, 1]))
+    """
+    if not isinstance(domain, Domain):
+        raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+    options = diagram_options(precision, neighbors, threads=threads)
+    with fraction_bar(progress, "preparing") as report:
+        _core.prepare(open_device(device), domain._core, options, report)
+
+
 def regular_triangulation(
     positions: ArrayLike,
     weights: Optional[ArrayLike] = None,

@@ -181,6 +181,15 @@ void bind_diagrams(nb::module_& m) {
       .def_prop_ro("precision", [](const PyDiagram& d) { return name_of(d.diagram().precision()); });
 
   m.def(
+      "prepare",
+      [](const Device& device, const Domain& domain, const nb::dict& options, nb::object progress) {
+        Options with = options_of(options);
+        Call call(std::move(progress));
+        with.progress = [&](double fraction) { return call.report(fraction); };
+        call.run([&] { prepare(device, domain, with); });
+      },
+      "device"_a, "domain"_a, "options"_a, "progress"_a.none());
+  m.def(
       "regular_triangulation",
       [](const Device& device, const Matrix<double>& positions, const Weights& weights,
          const nb::dict& options, nb::object progress) {

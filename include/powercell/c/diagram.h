@@ -22,6 +22,13 @@ POWERCELL_API pc_status pc_diagram_create(const pc_device* device, const pc_doma
                                           const pc_options* options, pc_diagram** diagram);
 POWERCELL_API void pc_diagram_destroy(pc_diagram* diagram);
 
+/** Builds and tests the kernels that diagrams of this kind run on the device, so that the first one takes no
+ * longer than the next ones: computes three small ones, with all results. What is built lasts as long as a
+ * pc_device of the process on the same device, and in a cache on disk. \param options  NULL for the defaults;
+ * `progress` is called as by a diagram */
+POWERCELL_API pc_status pc_prepare(const pc_device* device, const pc_domain* domain,
+                                   const pc_options* options);
+
 /** Sets the seeds, at most PC_MOST_SEEDS.
  * \param positions  count x d, row-major, unit length (d: 2 in polygons, 3 on surfaces and in volumes)
  * \param weights    count, unit length^2; NULL means all zero */
