@@ -9,8 +9,13 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/powercell)
 function(powercell_install kind suffix)
   set(export_core powercell-core-${kind})
   set(export_applications powercell-applications-${kind})
-  install(TARGETS powercell${suffix} EXPORT ${export_applications})
+  if(TARGET powercell_applications${suffix})
+    install(TARGETS powercell${suffix} EXPORT ${export_applications})
+  endif()
   foreach(name core applications)
+    if(NOT TARGET powercell_${name}${suffix})
+      continue()
+    endif()
     install(TARGETS powercell_${name}${suffix} EXPORT ${export_${name}}
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name} NAMELINK_COMPONENT development
       ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
@@ -21,8 +26,9 @@ function(powercell_install kind suffix)
 endfunction()
 if(BUILD_SHARED_LIBS)
   powercell_install(shared "")
-  # One library finds the other beside it, also in a moved tree.
-  set_target_properties(powercell_applications PROPERTIES INSTALL_RPATH "$ORIGIN")
+  if(TARGET powercell_applications)  # finds the core beside it, also in a moved tree
+    set_target_properties(powercell_applications PROPERTIES INSTALL_RPATH "$ORIGIN")
+  endif()
 else()
   powercell_install(static "")
 endif()

@@ -2,7 +2,7 @@
 /// The one exception type of powercell.
 #pragma once
 
-#include <powercell/export.hpp>
+#include <powercell/standard_library.hpp>
 #include <stdexcept>
 #include <string>
 

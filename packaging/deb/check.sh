@@ -35,7 +35,7 @@ wants() {
 }
 version=$(field powercell Version)
 same="\(= $version\)"
-wants libpowercell-core0 Depends 'libc6 \(>= .*' 'ocl-icd-libopencl1 .*' 'libstdc\+\+6 \(>= .*'
+wants libpowercell-core0 Depends 'libc6 \(>= .*' 'libstdc\+\+6 \(>= .*'
 wants libpowercell-core0 Recommends 'pocl-opencl-icd \| opencl-icd'
 wants libpowercell-applications0 Depends "libpowercell-core0 $same" 'libmuparser2v5 \(>= .*'
 wants powercell Depends "libpowercell-core0 $same" "libpowercell-applications0 $same" 'libcairo2 \(>= .*' 'libgeos-c1v5 \(>= .*' 'libproj25 \(>= .*'

@@ -27,13 +27,13 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 
 set(CPACK_DEBIAN_CORE_PACKAGE_NAME libpowercell-core${so_version})
 set(CPACK_DEBIAN_CORE_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_CORE_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd")
+set(CPACK_DEBIAN_CORE_PACKAGE_RECOMMENDS "ocl-icd-libopencl1 | libopencl1, pocl-opencl-icd | opencl-icd")
 set(CPACK_COMPONENT_CORE_DESCRIPTION "power diagrams on OpenCL: diagrams
 Power diagrams (weighted Voronoi diagrams) of polygons, surfaces and volumes,
 with exact decisions, on any OpenCL device.
 .
-This package has the library of diagrams. It needs an OpenCL driver, for
-instance that of pocl-opencl-icd, which runs on the CPU.")
+This package has the library of diagrams. It needs an OpenCL loader and
+driver when it runs, for instance pocl-opencl-icd, which runs on the CPU.")
 
 set(CPACK_DEBIAN_APPLICATIONS_PACKAGE_NAME libpowercell-applications${so_version})
 set(CPACK_DEBIAN_APPLICATIONS_PACKAGE_SECTION libs)

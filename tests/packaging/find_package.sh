@@ -34,11 +34,12 @@ refuses() {
 accepts C "" "powercell::core;powercell::applications;powercell::powercell"
 accepts C "$major.$minor;COMPONENTS;core" powercell::core
 accepts C "$version;COMPONENTS;core;applications" powercell::powercell
+accepts C "COMPONENTS;opencl" "powercell::core;powercell::opencl"
 accepts C "COMPONENTS;shared;OPTIONAL_COMPONENTS;gui" powercell::powercell
 for other in "$major.$((minor + 1))" "$((major + 1)).0" "$version.1"; do
   refuses C "$other" "compatible with requested version \"$other\""
 done
-refuses C "COMPONENTS;gui" "no component 'gui', only: core, applications, mpi, petsc, shared, static"
+refuses C "COMPONENTS;gui" "no component 'gui', only: core, applications, opencl, mpi, petsc, shared, static"
 refuses C "COMPONENTS;shared;static" "'shared' and 'static'"
 
 if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/mpi.hpp" ]; then

@@ -58,6 +58,9 @@ fi
 step "headers"
 python3 "$source/tests/headers/check.py" --cc "${CC:-cc}" --cxx "${CXX:-c++}" --include "$prefix/include"
 
+# shellcheck disable=SC2086
+"$source/tests/packaging/hosts.sh" "$prefix" "$work" $kinds
+
 step "the installed tool"
 unset LD_LIBRARY_PATH # it finds the libraries beside it
 "$prefix/bin/powercell" --version

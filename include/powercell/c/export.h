@@ -8,7 +8,8 @@
 #error "powercell needs a target of 64 bits, and pointers have fewer here"
 #endif
 
-/** Before each name that a shared library exports; everything else is hidden. */
+/** Before each name that a shared library exports; everything else is hidden. Programs that link the static
+ * libraries define POWERCELL_STATIC; there the archive hides its names in what links it. */
 #if defined(POWERCELL_STATIC)
 #define POWERCELL_API
 #elif defined(_WIN32) || defined(__CYGWIN__)

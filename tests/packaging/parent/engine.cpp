@@ -1,0 +1,3 @@
+int engine_answer() {
+  return 42;
+}
