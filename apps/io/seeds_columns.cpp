@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "apps/io/closest.hpp"
+#include "apps/io/column_units.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 
@@ -22,6 +23,7 @@ constexpr std::string_view x_names[] = {"lon", "long", "longitude", "lng", "deci
 constexpr std::string_view y_names[] = {"lat", "latitude", "decimallatitude", "northing"};
 constexpr std::string_view weight_names[] = {"w", "weight", "weights"};
 constexpr std::string_view radius_names[] = {"r", "radius", "radii"};
+constexpr std::string_view diameter_names[] = {"diameter", "diameters", "diam"};
 /// Names of columns that are not coordinates; "" is that of row numbers.
 constexpr std::string_view other_names[] = {"",     "id",    "fid",  "gid",    "objectid", "index", "key",
                                             "name", "label", "seed", "status", "mass",     "area"};
@@ -63,6 +65,15 @@ bool is_axis(std::string_view name, std::string_view axis) {
   return found;
 }
 
+bool has_map_name(const ColumnHeading& heading, Names known) {
+  return is_one_of(heading.name, known) && !heading.is(ColumnHeading::Unit::other);  // "lon (rad)"
+}
+
+bool says_degrees(const ColumnHeading& heading, Names known) {
+  return is_one_of(heading.name, known) &&
+         (heading.is(ColumnHeading::Unit::none) || heading.is(ColumnHeading::Unit::degree));
+}
+
 std::string row_names(std::size_t dimension) {
   return dimension == 2 ? "x, y, weight" : "x, y, z, weight";
 }
@@ -79,19 +90,15 @@ class Chooser {
     for (const std::string_view field : header) {
       columns_.names.emplace_back(field);
       names_.push_back(column_name(field));
+      headings_.push_back(column_heading(field));
     }
     const bool chosen = choose();
     columns_.named = !chosen && (!rows_.geometry().empty() || find_coordinates());
     const bool named = chosen || columns_.named;
-    if (!columns_.weight) columns_.weight = find(weight_names);
+    if (!columns_.weight) find_weight();
     if (!named) take_by_order();
-    const auto radius = columns_.weight ? std::nullopt : find(radius_names);
-    if (radius)
-      rows_.fail(fmt::format(
-          "the header has a column {} and no column of weights; a weight is a length squared: give "
-          "--radius-column {} to use the squares (or rename this column if it is not a radius)",
-          shown(*radius), columns_.names[*radius]));
     finish(named);
+    check_units();
     return std::move(columns_);
   }
 
@@ -151,25 +158,108 @@ class Chooser {
                            did_you_mean(closest(wanted, columns_.names))));
   }
 
-  /// The column with one of these names, if any.
-  std::optional<std::size_t> find(Names known) const {
+  /// The only column that is so, if any.
+  template <class Is>
+  std::optional<std::size_t> only(const Is& is) const {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < names_.size(); ++k) {
-      if (!is_one_of(names_[k], known)) continue;
+      if (!is(k)) continue;
       if (found) fail_twice(*found, k);
       found = k;
     }
     return found;
   }
 
-  std::optional<std::size_t> find_axis(std::string_view axis) const {
-    std::optional<std::size_t> found;
-    for (std::size_t k = 0; k < names_.size(); ++k) {
-      if (!is_axis(names_[k], axis)) continue;
-      if (found) fail_twice(*found, k);
-      found = k;
+  /// The column with one of these names, if any.
+  std::optional<std::size_t> find(Names known) const {
+    return only([&](std::size_t k) { return is_one_of(names_[k], known); });
+  }
+
+  /// The same, or else with one of these names and a unit.
+  std::optional<std::size_t> find_with_unit(Names known) const {
+    if (const auto plain = find(known)) return plain;
+    return only([&](std::size_t k) { return is_one_of(headings_[k].name, known); });
+  }
+
+  std::optional<std::size_t> find_on_map(Names known) const {
+    if (const auto plain = find(known)) return plain;
+    return only([&](std::size_t k) { return has_map_name(headings_[k], known); });
+  }
+
+  std::optional<std::size_t> find_axis(std::size_t axis) const {
+    if (axis >= dimension_) return find_with_unit({&axis_names[axis], 1});
+    return only([&](std::size_t k) { return is_axis(headings_[k].name, axis_names[axis]); });
+  }
+
+  /// Takes the column of weights, if there is one. Radii and diameters are none, but are not ignored either.
+  void find_weight() {
+    columns_.weight = find_with_unit(weight_names);
+    if (columns_.weight) {
+      const ColumnHeading& heading = headings_[*columns_.weight];
+      if (!heading.is(ColumnHeading::Unit::none) && !heading.is(ColumnHeading::Unit::area))
+        rows_.fail(fmt::format(
+            "a weight is a length squared, but the unit of the column {0} is none; give "
+            "--weight-column {1} to take its numbers as they are{2} (or rename this column "
+            "if it is not the weight of a cell)",
+            shown(*columns_.weight), option_value(*columns_.weight),
+            heading.is(ColumnHeading::Unit::length)
+                ? fmt::format(", or --radius-column {} to use their squares", option_value(*columns_.weight))
+                : ""));
+      return;
     }
-    return found;
+    if (const auto radius = find_with_unit(radius_names))
+      rows_.fail(fmt::format(
+          "the header has a column {} and no column of weights; a weight is a length squared: give "
+          "--radius-column {} to use the squares (or rename this column if it is not a radius)",
+          shown(*radius), option_value(*radius)));
+    if (const auto diameter = find_with_unit(diameter_names))
+      rows_.fail(fmt::format(
+          "the header has a column {} and no column of weights; the weight of a disc or ball is its radius "
+          "squared: add a column of half the diameters, and name it with --radius-column (or rename this "
+          "column if it is not a diameter)",
+          shown(*diameter)));
+  }
+
+  /// Refuses units that contradict each other, since numbers are taken as they are.
+  void check_units() const {
+    using Unit = ColumnHeading::Unit;
+    std::optional<std::size_t> first;
+    for (std::size_t axis = 0; axis < dimension_ && !is_geometry(); ++axis) {
+      const std::size_t k = columns_.position[axis];
+      if (!headings_[k].is(Unit::length) && !headings_[k].is(Unit::degree)) continue;
+      if (first && headings_[*first].unit != headings_[k].unit) fail_units(shown(*first), k);
+      if (!first) first = k;
+    }
+    if (!columns_.weight) return;
+    const ColumnHeading& weight = headings_[*columns_.weight];
+    if (columns_.radius && weight.is(Unit::area))
+      rows_.fail(fmt::format("{} has areas, not radii; give --weight-column {} to take them as weights",
+                             shown(*columns_.weight), option_value(*columns_.weight)));
+    if (!weight.is(columns_.radius ? Unit::length : Unit::area)) return;
+    if (columns_.degrees && weight.unit != "m")
+      rows_.fail(
+          fmt::format("longitudes and latitudes are projected to a plane in metres, but {} is in "
+                      "another unit; write it in metres, and rename the column",
+                      shown(*columns_.weight)));
+    if (first && headings_[*first].is(Unit::length) && headings_[*first].unit != weight.unit)
+      fail_units(shown(*first), *columns_.weight);
+  }
+
+  [[noreturn]] void fail_units(const std::string& first, std::size_t second) const {
+    rows_.fail(
+        fmt::format("the columns {} and {} have different units, and numbers are not converted; write "
+                    "both in one unit, and rename the column",
+                    first, shown(second)));
+  }
+
+  /// As an argument of an option in a shell.
+  std::string option_value(std::size_t column) const {
+    const std::string& name = columns_.names[column];
+    const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    if (plain) return name;
+    return name.find('\'') == std::string::npos ? shown(column) : fmt::format("{}", column + 1);
   }
 
   [[noreturn]] void fail_twice(std::size_t first, std::size_t second) const {
@@ -183,9 +273,10 @@ class Chooser {
   bool find_coordinates() {
     std::array<std::optional<std::size_t>, 3> found;
     for (std::size_t axis = 0; axis < 3; ++axis) found[axis] = find({&axis_names[axis], 1});
-    if (!found[0] && !found[1] && !found[2]) found = {find(x_names), find(y_names), std::nullopt};
     if (!found[0] && !found[1] && !found[2])
-      for (std::size_t axis = 0; axis < dimension_; ++axis) found[axis] = find_axis(axis_names[axis]);
+      found = {find_on_map(x_names), find_on_map(y_names), std::nullopt};
+    if (!found[0] && !found[1] && !found[2])
+      for (std::size_t axis = 0; axis < 3; ++axis) found[axis] = find_axis(axis);
     if (!found[0] && !found[1] && !found[2]) return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (found[axis].has_value() != (axis < dimension_))
@@ -222,7 +313,8 @@ class Chooser {
   }
 
   bool find_any(Names known) const {
-    return std::find_first_of(names_.begin(), names_.end(), known.begin(), known.end()) != names_.end();
+    return std::any_of(headings_.begin(), headings_.end(),
+                       [&](const ColumnHeading& heading) { return is_one_of(heading.name, known); });
   }
 
   void finish(bool named) {
@@ -236,9 +328,10 @@ class Chooser {
     if (columns_.radius) columns_.taken += " squared";
     // In either order: --x-column lat takes a header whose names are swapped.
     const auto are = [&](std::size_t longitude, std::size_t latitude) {
-      return is_one_of(names_[longitude], longitude_names) && is_one_of(names_[latitude], latitude_names);
+      return says_degrees(headings_[longitude], longitude_names) &&
+             says_degrees(headings_[latitude], latitude_names);
     };
-    columns_.degrees = !names_.empty() && (are(p[0], p[1]) || are(p[1], p[0]));
+    columns_.degrees = !headings_.empty() && (are(p[0], p[1]) || are(p[1], p[0]));
     columns_.note = note(named);
   }
 
@@ -277,7 +370,8 @@ class Chooser {
   const RowSource& rows_;
   std::size_t dimension_;
   const ColumnChoice& choice_;
-  std::vector<std::string> names_;  // in lower case
+  std::vector<std::string> names_;       // in lower case
+  std::vector<ColumnHeading> headings_;  // the same without units
   SeedColumns columns_;
 };
 
@@ -295,16 +389,18 @@ SeedColumns columns_by_order(const RowSource& rows, std::size_t count, std::size
 
 bool names_coordinates(const Fields& header, std::size_t dimension) {
   return std::any_of(header.begin(), header.end(), [&](std::string_view field) {
-    const std::string name = column_name(field);
-    bool is_named = is_one_of(name, x_names) || is_one_of(name, y_names);
+    const ColumnHeading heading = column_heading(field);
+    bool is_named = has_map_name(heading, x_names) || has_map_name(heading, y_names);
     for (std::size_t axis = 0; axis < dimension; ++axis)
-      is_named = is_named || is_axis(name, axis_names[axis]);
+      is_named = is_named || is_axis(heading.name, axis_names[axis]);
     return is_named;
   });
 }
 
 bool is_weight_name(std::string_view name) {
-  return is_one_of(name, weight_names);
+  const ColumnHeading heading = column_heading(name);
+  return is_one_of(heading.name, weight_names) &&
+         (heading.is(ColumnHeading::Unit::none) || heading.is(ColumnHeading::Unit::area));
 }
 
 std::string seed_row(std::size_t dimension) {

@@ -64,9 +64,18 @@ class Columns(ToolTest):
         self.assertIn('<DataArray type="Float64" Name="Turnover"', vtu)
         self.assertNotIn("Shop", vtu)
 
+    def test_radii_with_units_are_not_left_out(self):
+        self.write("s.csv", "x (mm),y (mm),radius (mm)\n.2,.3,.1\n.6,.5,.2\n")
+        diagram = ("diagram", "--domain", "square", "--seeds", "s.csv")
+        self.bad(1, r"--radius-column 'radius \(mm\)' to use the squares", *diagram)
+        self.assertIn("weight from 'radius (mm)' squared", self.good(*diagram, "--radius-column", "radius (mm)").stdout)
+
     def test_a_table_that_is_read_again_gives_the_same(self):
         for text, options in ((self.shops, ("--radius-column", "r")), ("a,b,c,d\n1,.2,.3,4\n2,.6,.5,5\n",
-                              ("--x-column", "b", "--y-column", "c")), ("a,b,c\n.2,.3,.01\n.6,.5,.02\n", ())):
+                              ("--x-column", "b", "--y-column", "c")), ("a,b,c\n.2,.3,.01\n.6,.5,.02\n", ()),
+                              ("x (mm),y (mm),weight (mm2)\n.2,.3,.01\n.6,.5,.02\n", ()),
+                              ("x (mm),y (mm),weight (kg)\n.2,.3,.01\n.6,.5,.02\n", ("--weight-column", "weight (kg)")),
+                              ("x_m,y_m,r_m\n.2,.3,.1\n.6,.5,.2\n", ("--radius-column", "r_m"))):
             self.write("s.csv", text)
             for command in ("diagram", "transport"):
                 with self.subTest(text=text, command=command):
@@ -78,7 +87,8 @@ class Columns(ToolTest):
                     first, again = (list(csv.DictReader((self.folder / name).read_text().splitlines(), delimiter=separator))
                                     for name in ("t.csv", "t2.csv"))
                     for a, b in zip(first, again):
-                        self.assertEqual((a["weight"], a["status"]), (b["weight"], b["status"]))
+                        weights = [row.get("weight", row.get("weight (mm2)")) for row in (a, b)]  # columns keep their names
+                        self.assertEqual((weights[0], a["status"]), (weights[1], b["status"]))
                         self.assertAlmostEqual(float(a.get("measure") or a["mass"]), float(b["measure"]), delta=1e-12)
 
     def test_weights_are_scaled(self):
