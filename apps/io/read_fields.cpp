@@ -190,7 +190,8 @@ std::string FieldNumbers::why_not(std::string_view field, Parsed parsed) const {
   if (mark_ == '.' && may_have_commas() && has_decimal_comma(field))
     return fmt::format("'{}' has a decimal comma, but numbers before have decimal points", field);
   std::string reason = io::why_not(field, parsed);
-  if (has_decimal_comma(field)) reason += ", or separate the columns by semicolons";
+  if (has_decimal_comma(field) && !has_thousands_commas(field))
+    reason += ", or separate the columns by semicolons";
   return reason;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +15,33 @@ namespace {
 
 bool blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+std::string without(std::string_view word, std::string_view mark) {
+  std::string rest(word);
+  for (std::size_t at = 0; (at = rest.find(mark, at)) != std::string::npos;) rest.erase(at, mark.size());
+  return rest;
+}
+
+// What to do about a word that is a number for people; empty if there is no advice.
+std::string number_advice(std::string_view word) {
+  double value = 0;
+  if (has_thousands_commas(word)) {
+    const std::string whole = without(word, ",");
+    if (!has_decimal_comma(word))
+      return fmt::format(": commas between thousands are not read, write {}", whole);
+    std::string decimal(word);
+    decimal[decimal.find(',')] = '.';
+    return fmt::format(": a comma is not read, write {} if it separates thousands, {} if decimals", whole,
+                       decimal);
+  }
+  if (has_decimal_comma(word)) return ": decimal commas are not read, write a point";
+  for (const std::string_view mark : {" ", "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "'", "_"}) {
+    const std::string joined = without(word, mark);
+    if (joined.size() != word.size() && parse_number(joined, value) == Parsed::ok)
+      return fmt::format(": marks between digits are not read, write {}", joined);
+  }
+  return {};
 }
 
 std::string shown(std::string_view word) {  // arbitrary bytes must not disturb the message or the terminal
@@ -45,6 +73,15 @@ bool has_decimal_comma(std::string_view word) {
   return parse_number(with_point, value) == Parsed::ok;
 }
 
+bool has_thousands_commas(std::string_view word) {
+  if (!word.empty() && (word[0] == '+' || word[0] == '-')) word.remove_prefix(1);
+  const std::vector<std::string_view> groups = split(word.substr(0, word.find('.')), ',');
+  if (groups.size() < 2 || groups[0].empty() || groups[0].size() > 3 || groups[0][0] == '0') return false;
+  double value = 0;
+  return std::all_of(groups.begin() + 1, groups.end(), [](std::string_view g) { return g.size() == 3; }) &&
+         parse_number(without(word, ","), value) == Parsed::ok;
+}
+
 std::string why_not(std::string_view word, Parsed parsed) {
   switch (parsed) {
     case Parsed::not_finite:
@@ -52,8 +89,7 @@ std::string why_not(std::string_view word, Parsed parsed) {
     case Parsed::too_large:
       return fmt::format("'{}' is too large for a double", shown(word));
     default:
-      return fmt::format("'{}' is not a number{}", shown(word),
-                         has_decimal_comma(word) ? ": decimal commas are not read, write a point" : "");
+      return fmt::format("'{}' is not a number{}", shown(word), number_advice(word));
   }
 }
 

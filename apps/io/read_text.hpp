@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace powercell::io {
 
@@ -23,6 +24,10 @@ Parsed parse_number(std::string_view word, double& value);
 
 /// Whether the word is a number with a decimal comma.
 bool has_decimal_comma(std::string_view word);
+
+/// Whether the word is a number with a comma before each group of three digits, as thousands have in English;
+/// 1,200 is one, and has a decimal comma too.
+bool has_thousands_commas(std::string_view word);
 
 /// Why parse_number refused `word`: "'nan' is not finite".
 std::string why_not(std::string_view word, Parsed parsed);

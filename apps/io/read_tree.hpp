@@ -44,7 +44,8 @@ struct TreeColumnNames {
 /// - any other file: a table of rows id, parent, name, value, separated by commas, semicolons or tabs, with
 /// or without
 ///   a header that names the columns in any order. The root has no parent; a parent 0 without a row is the
-///   root too.
+///   root too. Without ids the parents are names, as in plotly's labels, parents, values and Google's name,
+///   parent, size; from, to, value and the like are links from parents to children.
 /// A header without a parent column may name other shapes: `name,value`; `id,value` with paths (a/b/c, or
 /// a.b.c if all groups have rows); or the levels from the top down, in the columns before `value`. A first
 /// line "sep=;" is skipped. Several roots get a root above them. Values of nodes with children are not used

@@ -10,6 +10,7 @@
 #include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
+#include "apps/io/read_text.hpp"
 #include "apps/io/read_tree_rows.hpp"
 
 namespace powercell::io {
@@ -67,8 +68,45 @@ std::string colour_of(const json& object, const std::string& colours, const std:
   return as_text(value, "colour", file, place);
 }
 
+const json* id_of_row(const json& object) {
+  return member(object, {"id", "nodeId"});
+}
+
+// The parent of a row under any name that begins so: parentId, "parent name".
+const json* parent_of_row(const json& object) {
+  if (const json* parent = member(object, {"parent", "parentId"})) return parent;
+  for (const auto& [key, value] : object.items())
+    if (lower_case(key).starts_with("parent") && !value.is_null()) return &value;
+  return nullptr;
+}
+
+// Rows of the columns {labels, parents, values, ids} that plotly has; null if there are none.
+json rows_of_columns(const json& object, const TreeColumnNames& named, const std::string& file) {
+  const json* parents = member(object, {"parents"});
+  const json* labels = member(object, {"labels", "ids"});
+  if (!parents || !parents->is_array() || !labels || !labels->is_array()) return nullptr;
+  json rows = json::array();
+  for (std::size_t k = 0; k < parents->size(); ++k) rows.push_back(json::object());
+  const auto take = [&](const char* column, const std::string& key) {
+    const json* values = member(object, {column});
+    if (!values) return;
+    if (!values->is_array() || values->size() != rows.size())
+      fail_file(file, fmt::format("'{}' is not a list as long as 'parents'", column));
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k][key] = (*values)[k];
+  };
+  take("parents", "parent");
+  take("labels", "name");
+  take("ids", "id");
+  take("values", "value");
+  for (const std::string& column : {named.value, named.colours})
+    if (!column.empty()) take(column.c_str(), column);
+  return rows;
+}
+
 NamedTree read_list(const json& list, const std::string& name, const TreeColumnNames& named) {
   std::vector<TreeRow> rows;
+  const bool has_ids = std::any_of(
+      list.begin(), list.end(), [](const json& object) { return object.is_object() && id_of_row(object); });
   rows.reserve(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {
     const auto place = [&] { return fmt::format("element {}", k + 1); };
@@ -76,15 +114,16 @@ NamedTree read_list(const json& list, const std::string& name, const TreeColumnN
     if (!object.is_object()) fail_file(name, place() + ": is not an object {id, parent, name, value}");
     TreeRow row;
     row.place = k + 1;
-    row.id = as_text(member(object, {"id", "nodeId"}), "id", name, place);
-    if (row.id.empty()) fail_file(name, place() + ": has no id");
-    row.parent = as_text(member(object, {"parent", "parentId"}), "parent", name, place);
     row.name = as_text(member(object, {"name", "label"}), "name", name, place);
+    row.id = has_ids ? as_text(id_of_row(object), "id", name, place) : row.name;
+    if (row.id.empty()) fail_file(name, place() + (has_ids ? ": has no id" : ": has no id and no name"));
+    row.parent = as_text(parent_of_row(object), "parent", name, place);
     row.value = as_value(object, named, name, place);
     row.colour = colour_of(object, named.colours, name, place);
     rows.push_back(std::move(row));
   }
-  return link_rows(std::move(rows), name, false);
+  return link_rows(std::move(rows), name, false,
+                   has_ids ? "" : "names stand for ids here: give each an id too");
 }
 
 // Ids are the names from the root to the node, joined by slashes, with "#2" and so on appended to repeated
@@ -200,8 +239,10 @@ NamedTree parse_tree_json(std::string_view text, const std::string& name, const 
   if (!document.is_array() && !document.is_object())
     fail_file(name,
               "is neither an object {name, children, value} nor a list of rows {id, parent, name, value}");
-  NamedTree tree =
-      document.is_array() ? read_list(document, name, named) : Nested(name, named).read(document);
+  const json columns = document.is_object() ? rows_of_columns(document, named, name) : json();
+  NamedTree tree = columns.is_array()    ? read_list(columns, name, named)
+                   : document.is_array() ? read_list(document, name, named)
+                                         : Nested(name, named).read(document);
   const auto refuse = [&](const char* option, const std::string& wanted) {
     throw Error(
         ErrorCode::invalid_argument,

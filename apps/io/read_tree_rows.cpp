@@ -13,8 +13,8 @@ constexpr const char* implied_root = "0";
 
 class Linker {
  public:
-  Linker(std::vector<TreeRow>& rows, const std::string& file, bool lines)
-      : rows_(rows), file_(file), lines_(lines) {}
+  Linker(std::vector<TreeRow>& rows, const std::string& file, bool lines, const std::string& repeated)
+      : rows_(rows), file_(file), repeated_(repeated), lines_(lines) {}
 
   NamedTree run() {
     if (rows_.empty()) fail_file(file_, "has no rows and therefore no tree");
@@ -38,7 +38,9 @@ class Linker {
     at_.reserve(rows_.size());
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto [known, fresh] = at_.emplace(rows_[k].id, k);
-      if (!fresh) fail(k, fmt::format("the id '{}' is also that of {}", rows_[k].id, place(known->second)));
+      if (!fresh)
+        fail(k, fmt::format("the id '{}' is also that of {}{}{}", rows_[k].id, place(known->second),
+                            repeated_.empty() ? "" : "; ", repeated_));
     }
   }
 
@@ -68,7 +70,9 @@ class Linker {
         const auto known = at_.find(row.parent);
         if (known == at_.end())
           fail(static_cast<std::size_t>(&row - rows_.data()),
-               fmt::format("'{}' has the parent '{}', which has no row", row.id, row.parent));
+               fmt::format("'{}' has the parent '{}', which has no row; add one, with no parent "
+                           "if it is the root",
+                           row.id, row.parent));
         parent = static_cast<std::int64_t>(known->second);
       }
       tree_.parent.push_back(parent);
@@ -100,6 +104,7 @@ class Linker {
 
   std::vector<TreeRow>& rows_;
   const std::string& file_;
+  const std::string& repeated_;
   bool lines_;
   std::unordered_map<std::string, std::size_t> at_;
   NamedTree tree_;
@@ -107,8 +112,9 @@ class Linker {
 
 }  // namespace
 
-NamedTree link_rows(std::vector<TreeRow> rows, const std::string& file, bool lines) {
-  return Linker(rows, file, lines).run();
+NamedTree link_rows(std::vector<TreeRow> rows, const std::string& file, bool lines,
+                    const std::string& repeated) {
+  return Linker(rows, file, lines, repeated).run();
 }
 
 }  // namespace powercell::io

@@ -2,28 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <powercell/error.hpp>
 #include <unordered_set>
 
-#include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_text.hpp"
 #include "apps/io/read_tree_rows.hpp"
+#include "apps/io/tree_columns.hpp"
 
 namespace powercell::io {
 namespace {
-
-enum TreeColumn { id_column, parent_column, name_column, value_column, columns };
-
-constexpr std::array<std::array<std::string_view, 4>, columns> headings = {
-    {{"id", "nodeid", "node", "key"},
-     {"parent", "parentid", "parent_id", ""},
-     {"name", "label", "title", ""},
-     {"value", "weight", "size", "area"}}};
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
@@ -44,55 +35,21 @@ char find_separator(std::string_view text) {
   return best;
 }
 
-using Places = std::array<std::optional<std::size_t>, columns>;
-
-std::string listed(const Fields& header) {
-  std::string all;
-  for (const auto& field : header) all += (all.empty() ? "" : ", ") + std::string(trimmed(field));
-  return readable(all);
-}
-
-// The place of a column in a header. \throw Error invalid_argument
-std::size_t place_of(const Fields& header, const char* option, const std::string& column) {
-  std::vector<std::string> known;
-  for (std::size_t f = 0; f < header.size(); ++f) {
-    if (column_name(header[f]) == column_name(column)) return f;
-    known.emplace_back(trimmed(header[f]));
-  }
-  throw Error(ErrorCode::invalid_argument,
-              fmt::format("{} {}: there is no such column{}; the table has {}", option, readable(column),
-                          did_you_mean(closest(column, known)), listed(header)));
-}
-
-// The places of the columns, if this is a header. \param value  the name of the column of values, if given
-std::optional<Places> read_header(const Fields& fields, const std::string& value) {
-  Places places;
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    const std::string heading = column_name(fields[f]);
-    for (std::size_t c = 0; c < columns; ++c)
-      if (!heading.empty() && std::find(headings[c].begin(), headings[c].end(), heading) != headings[c].end())
-        places[c] = f;
-  }
-  if (!value.empty()) places[value_column] = place_of(fields, "--value-column", value);
-  const bool linked = places[id_column] && places[parent_column];
-  if (!linked && !(places[value_column] && fields.size() > 1 && !places[parent_column])) return std::nullopt;
-  return places;
-}
-
 std::string field_of(const Fields& fields, std::optional<std::size_t> place) {
   return place && *place < fields.size() ? std::string(trimmed(fields[*place])) : std::string();
 }
 
-TreeRow read_row(const Fields& fields, const Places& places, const std::string& name, std::size_t line) {
+TreeRow read_row(const Fields& fields, const TreeColumns& columns, const std::string& name,
+                 std::size_t line) {
   TreeRow row;
   row.place = line;
-  row.id = field_of(fields, places[id_column]);
-  row.parent = field_of(fields, places[parent_column]);
-  row.name = field_of(fields, places[name_column]);
+  row.id = field_of(fields, columns.place[id_column]);
+  row.parent = field_of(fields, columns.place[parent_column]);
+  row.name = field_of(fields, columns.place[name_column]);
   if (row.id.empty()) fail_line(name, line, "the row has no id");
   if (printable(row.id) != row.id)
     fail_line(name, line, "the id is not valid UTF-8; save the table as UTF-8");
-  const std::string value = field_of(fields, places[value_column]);
+  const std::string value = field_of(fields, columns.place[value_column]);
   if (value.empty()) return row;
   const Parsed parsed = parse_number(value, row.value);
   if (parsed != Parsed::ok)
@@ -107,10 +64,10 @@ class Paths {
   Paths(std::vector<std::size_t> levels, bool may_split)
       : levels_(std::move(levels)), may_split_(may_split) {}
 
-  TreeRow read(const Fields& fields, Places places, const std::string& name, std::size_t line) {
-    places[id_column] = levels_.front();
-    if (!may_split_) places[name_column] = std::nullopt;
-    TreeRow row = read_row(fields, places, name, line);
+  TreeRow read(const Fields& fields, TreeColumns columns, const std::string& name, std::size_t line) {
+    columns.place[id_column] = levels_.front();
+    if (!may_split_) columns.place[name_column] = std::nullopt;
+    TreeRow row = read_row(fields, columns, name, line);
     if (levels_.size() == 1) return row;
     row.name = row.id;
     row.id = escaped(row.id);
@@ -184,6 +141,22 @@ std::vector<std::size_t> level_columns(std::size_t width, std::size_t value,
   return levels;
 }
 
+// Of links from parents to children, those that are nobody's child have no rows.
+void add_roots(std::vector<TreeRow>& rows) {
+  std::unordered_set<std::string> known;
+  for (const TreeRow& row : rows) known.insert(row.id);
+  const std::size_t count = rows.size();
+  for (std::size_t k = 0; k < count; ++k)
+    if (std::string above = rows[k].parent; !above.empty() && known.insert(above).second)
+      rows.push_back({std::move(above), "", "", "", 0, 0});
+}
+
+// Whether a first row of four fields, none of them a known name, has a name where its value is expected.
+bool looks_like_header(const Fields& fields) {
+  return is_header(fields) && std::none_of(fields.begin(), fields.end(),
+                                           [](std::string_view field) { return trimmed(field).empty(); });
+}
+
 std::string described(const Fields& header, const std::vector<std::size_t>& levels) {
   std::string all;
   for (const std::size_t level : levels)
@@ -196,8 +169,9 @@ std::string described(const Fields& header, const std::vector<std::size_t>& leve
 NamedTree parse_tree_table(std::string_view text, const std::string& name, const TreeColumnNames& named) {
   const std::optional<char> announced = announced_separator(text);
   Records records(text, name, announced ? *announced : find_separator(text));
-  Places places = {0, 1, 2, 3};
-  std::size_t width = columns;
+  TreeColumns columns;
+  columns.place = {0, 1, 2, 3};
+  std::size_t width = tree_columns;
   Fields fields;
   std::vector<TreeRow> rows;
   std::optional<Paths> paths;
@@ -206,10 +180,11 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name, const
   if (announced) records.next(fields);
   for (bool first = true; records.next(fields); first = false) {
     if (first) {
-      if (const auto header = read_header(fields, named.value)) {
-        places = *header;
+      if (const auto header = find_tree_columns(fields, named.value, records.place())) {
+        columns = *header;
+        const auto& places = columns.place;
         width = fields.size();
-        if (!named.colours.empty()) colour = place_of(fields, "--color-by", named.colours);
+        if (!named.colours.empty()) colour = place_of_column(fields, "--color-by", named.colours);
         if (!places[value_column])
           fail_line(name, records.line(),
                     fmt::format("the header has no column value, weight, size or area; choose one of {} with "
@@ -230,12 +205,18 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name, const
           fmt::format("{} fields where 4 are expected (id, parent, name, value); of a header, choose the "
                       "column of the values with --value-column: {}",
                       fields.size(), listed(fields)));
+    if (first && looks_like_header(fields))
+      fail_line(
+          name, records.line(),
+          fmt::format("the header names no column of values; choose it with --value-column, and call the "
+                      "columns of ids and parents id and parent: {}",
+                      listed(fields)));
     if (fields.size() != width)
       fail_line(
           name, records.line(),
           fmt::format("{} fields where {} are expected; quote fields with separators", fields.size(), width));
-    rows.push_back(paths ? paths->read(fields, places, name, records.line())
-                         : read_row(fields, places, name, records.line()));
+    rows.push_back(paths ? paths->read(fields, columns, name, records.line())
+                         : read_row(fields, columns, name, records.line()));
     rows.back().colour = field_of(fields, colour);
   }
   if (paths)
@@ -244,7 +225,13 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name, const
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("--color-by {}: {} has no header; name its columns in a first line",
                             readable(named.colours), readable(name)));
-  NamedTree tree = link_rows(std::move(rows), name, true);
+  if (columns.links) add_roots(rows);
+  NamedTree tree = link_rows(
+      std::move(rows), name, true,
+      columns.names_are_ids ? "names stand for ids here: give a column id too"
+      : columns.links       ? "a row is a parent and its child here; name the columns level 1 and level 2 "
+                              "if the same name below two parents is no mistake"
+                            : "");
   tree.notes.insert(tree.notes.begin(), notes.begin(), notes.end());
   return tree;
 }
