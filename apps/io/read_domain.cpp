@@ -5,6 +5,7 @@
 #include <array>
 
 #include "apps/io/domain_box.hpp"
+#include "apps/io/foreign_files.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_geopackage.hpp"
@@ -86,6 +87,7 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
     MeshArrays mesh = choose_elements(format.parse(bytes, name), kind, name);
     return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements), {}};
   }
+  refuse_foreign_map(extension, name);
   fail_file(
       name,
       fmt::format(

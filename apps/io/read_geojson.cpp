@@ -31,6 +31,8 @@ class GeoJson {
     if (!value.is_object() || !value.contains("type") || !value["type"].is_string())
       fail(path, "is not a GeoJSON object (an object with a type)");
     const std::string type = value["type"];
+    if (type == "Topology")
+      fail(path, "is TopoJSON, which is not read; GDAL converts it: ogr2ogr -f GeoJSON map.geojson " + name_);
     if (type == "FeatureCollection") {
       members(value, "features", path, depth, nullptr);
     } else if (type == "GeometryCollection") {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/io/feature_rows.hpp"
+#include "apps/io/foreign_files.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_geopackage.hpp"
 #include "apps/io/read_text.hpp"
@@ -57,6 +58,7 @@ SeedTable read_seed_file(const std::string& path, int dimension, const ColumnCho
   const std::string name = is_stream ? "standard input" : path, extension = lower_extension(path);
   if (is_geopackage(path)) return seeds_of_features(read_geopackage_points(path, axes(dimension)), choice);
   if (extension == ".npz") fail_file(path, "is an archive of arrays; save a single array as .npy");
+  refuse_foreign_map(extension, name);
   const std::string bytes = read_file(is_stream ? "/dev/stdin" : path);
   if (extension == ".geojson" || extension == ".json" || trimmed(bytes.substr(0, 64)).starts_with('{'))
     return seeds_of_features(parse_geojson_points(bytes, axes(dimension), name), choice);

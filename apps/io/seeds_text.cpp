@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "apps/io/foreign_files.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
@@ -104,9 +105,10 @@ bool SeedsReader::first_line(const Fields& fields) {
 }
 
 void SeedsReader::fail_width(std::size_t columns) const {
-  rows_.fail(fmt::format("seed {} (from 0) has {} columns, {} {}; give every row a weight or none{}", count_,
-                         columns, header_ && count_ == 0 ? "the header has" : "the rows before have",
-                         columns_->count, separated_by(rows_.separator())));
+  rows_.fail(fmt::format("seed {} (from 0) has {} columns, {} {}; give every row a weight or none{}{}",
+                         count_, columns, header_ && count_ == 0 ? "the header has" : "the rows before have",
+                         columns_->count, separated_by(rows_.separator()),
+                         header_ && count_ == 0 ? "; if the first line is a title, begin it with #" : ""));
 }
 
 void SeedsReader::row(Fields& fields) {
@@ -189,6 +191,7 @@ SeedTable SeedsReader::read() {
 Records records_of(std::string_view text, const std::string& name) {
   if (text.substr(0, 4096).find('\0') != std::string_view::npos)
     fail_line(name, 1, "has NUL bytes; is it text? (.npy files need that extension)");
+  refuse_foreign_seeds(text, name);
   return {text, name, begins_as_wkt_point(trimmed(text)) ? '\0' : number_separator(text, comment), comment};
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "apps/io/printable.hpp"
@@ -85,7 +86,7 @@ void WktColumn::find_column() {
   const std::vector<std::string>&header = ahead_[0].fields, &first = ahead_[1].fields;
   for (column_ = 0; column_ < first.size() && !begins_as_wkt_point(first[column_]); ++column_) {
   }
-  if (column_ >= header.size()) return;
+  if (column_ >= std::min(header.size(), first.size())) return;
   geometry_ = fmt::format("the points of '{}'", readable(header[column_]));
   parser_ = std::make_unique<Parser>();
 }
