@@ -21,8 +21,8 @@ namespace powercell::out_of_core {
 namespace {
 
 constexpr std::size_t block_seeds = std::size_t{1} << 16;  // read at a time
-constexpr std::size_t most_parts = 256;                    // files that are written at a time
-constexpr std::size_t samples_of_part = 4096;              // a part has 1.6 % more or less than its share
+constexpr std::size_t most_parts = 240;  // written at a time, or up to twice as many; Windows allows 509
+constexpr std::size_t samples_of_part = 4096;  // a part has 1.6 % more or less than its share
 
 /// What calls a function for blocks of some seeds, one after the other, as often as it is asked to.
 using Blocks = std::function<void(const std::function<void(const SeedBlock&)>& use)>;
