@@ -47,7 +47,8 @@ int main() {
   }
 }
 END
-c++ -std=c++20 -I . -I include "$work/variants.cpp" lib/scene/variant.cpp lib/cl/quirks.cpp lib/report/error.cpp -o "$work/variants"
+c++ -std=c++20 -I . -I include "$work/variants.cpp" lib/scene/variant.cpp lib/cl/quirks.cpp lib/report/error.cpp lib/report/standard_library.cpp \
+  -o "$work/variants"
 env -u POWERCELL_LANES "$work/variants" >"$work/variants.txt"
 
 if [ "${1-}" = --check ] && [ "${2-}" != all ] && python3 tools/gpu_costs.py --work "$work" --is-of-today; then
