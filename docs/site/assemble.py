@@ -23,6 +23,7 @@ OTHERS = {
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
     "README.md": "readme.md",
+    "THIRD_PARTY.md": "third_party.md",
     "bench/paper/README.md": "paper.md",
     "examples/data/README.md": "data.md",
     "packaging/README.md": "packaging.md",
