@@ -47,7 +47,7 @@ class BrokenPlatforms(Machines):
 
     def test_a_platform_that_lists_no_devices_is_set_aside(self):
         for first in (True, False):
-            for status, name in ((-6, "CL_OUT_OF_HOST_MEMORY"), (-5, "CL_OUT_OF_RESOURCES"), (-32, "CL_INVALID_PLATFORM")):
+            for status, name in ((-6, "CL_OUT_OF_HOST_MEMORY"), (-5, "CL_OUT_OF_RESOURCES"), (-4, "CL_MEM_OBJECT_ALLOCATION_FAILURE"), (-32, "CL_INVALID_PLATFORM")):
                 with self.subTest(first=first, status=status):
                     machine = {"OCL_ICD_VENDORS": self.vendors(first), "BROKEN_STATUS": str(status)}
                     used = run("measure", **machine)
