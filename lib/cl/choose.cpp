@@ -12,6 +12,7 @@
 #include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/cl/enumerate.hpp"
+#include "lib/cl/errors.hpp"
 #include "lib/cl/self_test.hpp"
 #include "lib/cl/settings_file.hpp"
 #include "lib/report/log.hpp"
@@ -93,19 +94,6 @@ std::vector<std::size_t> best_first(std::span<const DeviceInfo> devices, const s
   return matching;
 }
 
-/// Whether the failure is one of a device, so that another one may do.
-bool is_of_device(const Error& error) {
-  switch (error.code()) {
-    case ErrorCode::build_failed:
-    case ErrorCode::self_test_failed:
-    case ErrorCode::out_of_device_memory:
-    case ErrorCode::opencl:
-      return true;
-    default:
-      return false;
-  }
-}
-
 Device open(std::shared_ptr<SharedContext> shared, const DeviceInfo& info) {
   auto context = std::make_shared<Context>(std::move(shared), info);
   self_test(context);
@@ -117,7 +105,7 @@ Device open(const FoundDevice& found) {
   if (auto shared = SharedContext::of_device(found.device)) try {
       return open(std::move(shared), found.info);
     } catch (const Error& error) {
-      if (!is_of_device(error)) throw;
+      if (!is_of_device(error.code())) throw;
     }
   return open(SharedContext::make(found.platform, found.device), found.info);
 }
@@ -133,7 +121,7 @@ std::vector<Device> open_those_that_work(const FoundDevices& found, std::span<co
     try {
       opened.push_back(open(found.usable[k]));
     } catch (const Error& error) {
-      if (!is_of_device(error)) throw;
+      if (!is_of_device(error.code())) throw;
       const DeviceInfo& info = found.usable[k].info;
       write_log(LogLevel::info, [&] {
         return "the device " + info.selector() + " " + info.name + " is set aside: " + error.what();

@@ -122,6 +122,18 @@ void check_query(cl_int status, std::string_view what) {
   if (status != CL_SUCCESS) fail(ErrorCode::opencl, status, what);
 }
 
+bool is_of_device(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::opencl:
+    case ErrorCode::out_of_device_memory:
+    case ErrorCode::build_failed:
+    case ErrorCode::self_test_failed:
+      return true;
+    default:
+      return false;
+  }
+}
+
 void require_not_forked() {
   if (is_forked()) fail_forked();
 }

@@ -16,6 +16,9 @@ void check_allocation(cl_int status, std::string_view what);
 /// module answer CL_OUT_OF_HOST_MEMORY. \throw Error opencl
 void check_query(cl_int status, std::string_view what);
 
+/// Whether a failure is one of a device, so that another one may do.
+bool is_of_device(ErrorCode code);
+
 /// \throw Error unsupported in a process that was forked after OpenCL was used
 void require_not_forked();
 
