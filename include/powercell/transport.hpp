@@ -17,7 +17,7 @@ namespace powercell {
 enum class TransportPhase {
   start,   ///< choice of the initial weights; no linear system was solved
   newton,  ///< damped Newton towards the prescribed masses
-  ramp,    ///< damped Newton towards masses raised to a power below 1
+  ramp,    ///< damped Newton towards intermediate masses
   ascent,  ///< regularised Newton on the dual, which tolerates empty cells
 };
 
@@ -28,7 +28,9 @@ POWERCELL_API const char* name(TransportPhase phase) noexcept;
 struct TransportStep {
   int step = 0;  ///< from 0, counted through all phases
   TransportPhase phase = TransportPhase::start;
-  double exponent = 1;    ///< ramp: v is proportional to this power of the masses
+  /// ramp: v is proportional to this power of the masses, or this share of the way from those at the start,
+  /// as logarithms.
+  double exponent = 1;
   double spread = 0;      ///< share of the domain's mass replaced by a uniform density; 0 at the end
   double error = 0;       ///< max |m_i / v_i - 1|
   double gradient = 0;    ///< |v - m|, Euclidean

@@ -36,7 +36,8 @@ POWERCELL_API const char* pc_transport_phase_name(pc_transport_phase phase);
 typedef struct pc_transport_step {
   int step; /**< from 0, counted through all phases */
   pc_transport_phase phase;
-  double exponent;         /**< ramp: v is proportional to this power of the masses */
+  double exponent;         /**< ramp: v is proportional to this power of the masses, or this share of the way
+                                from those at the start, as logarithms */
   double spread;           /**< share of the domain's mass replaced by a uniform density; 0 at the end */
   double error;            /**< max |m_i / v_i - 1| */
   double gradient;         /**< |v - m|, Euclidean */

@@ -26,7 +26,7 @@ void set_spread(SolveContext& context, double share) {
 }
 
 PhaseEnd newton_for_blend(SolveContext& context, Iterate& at) {
-  return newton(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
+  return newton(context, at, {context.target(), context.tolerance()});
 }
 
 /// Looks for a blend that damped Newton solves from `at`, and solves it.

@@ -39,6 +39,8 @@ class DiagramEvaluator : public Evaluator {
     count_diagram();
     return diagram_.cells();
   }
+  Diagram& diagram() { return diagram_; }
+  const TransportOptions& options() const { return options_; }
   const Vector& last_weights() const { return last_weights_; }  ///< those that the diagram has
 
  private:

@@ -1,6 +1,7 @@
 #include "lib/applications/transport/domain_points.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <powercell/regions.hpp>
@@ -50,6 +51,25 @@ std::vector<Simplex> simplices_of(const RegionsView& view, std::uint32_t region)
   return fan;
 }
 
+/// Points of a grid over a box of space.
+void add_grid(const Domain& domain, std::size_t count, Weighted& points) {
+  const std::array<double, 3> low = domain.low(), high = domain.high();
+  const double edge = std::cbrt(domain.measure() / static_cast<double>(count));
+  std::array<std::size_t, 3> fine{};
+  for (std::size_t c = 0; c < 3; ++c)
+    fine[c] = static_cast<std::size_t>(
+        std::clamp(std::round((high[c] - low[c]) / edge), 1.0, static_cast<double>(count)));
+  const std::size_t size = fine[0] * fine[1] * fine[2];
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::array<std::size_t, 3> at{k % fine[0], k / fine[0] % fine[1], k / fine[0] / fine[1]};
+    for (std::size_t c = 0; c < 3; ++c)
+      points.positions.push_back(low[c] + (static_cast<double>(at[c]) + 0.5) / static_cast<double>(fine[c]) *
+                                              (high[c] - low[c]));
+  }
+  points.mass.assign(size, domain.measure() / static_cast<double>(size));
+  points.weights.assign(size, 0);
+}
+
 }  // namespace
 
 DomainPoints domain_points(const Domain& domain, std::size_t count) {
@@ -64,6 +84,11 @@ DomainPoints domain_points(const Domain& domain, std::size_t count) {
     }
     points.mass.assign(count, domain.measure() / static_cast<double>(count));
     points.weights.assign(count, 0);
+    return result;
+  }
+  if (view.shape == RegionShape::box) {
+    add_grid(domain, count, points);
+    result.region.assign(points.size(), 0);
     return result;
   }
   for (std::uint32_t r = 0; r < view.size(); ++r)

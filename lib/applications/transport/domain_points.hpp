@@ -14,7 +14,7 @@ struct DomainPoints {
   std::vector<std::uint32_t> region;  ///< per point
 };
 
-/// Points on regular grids in the regions of a domain of polygons, triangles or tetrahedra, each with its
+/// Points on regular grids in the regions of a domain, each with its
 /// share of the measure: about `count`, at least one a region.
 DomainPoints domain_points(const Domain& domain, std::size_t count);
 

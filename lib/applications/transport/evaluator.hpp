@@ -11,6 +11,8 @@ namespace powercell {
 
 /// Relative error to which the masses of blended densities are solved: enough to start the next blend from.
 inline constexpr double blend_tolerance = 0.1;
+/// min m_i / v_i below which Newton's method makes no progress, unless by intermediate masses.
+inline constexpr double hopeless_share = 1e-3;
 
 /// Weights with everything that is evaluated at them. v are target masses. Arrays are those of the seeds
 /// here, numbers of all seeds.
@@ -40,6 +42,12 @@ struct Iterate {
   }
   /// min m_i / v_i
   double least(const Vector& target) const;
+  /// Whether a cell is empty or far below its mass.
+  bool is_poor(const Vector& target) const { return empty > 0 || least(target) < hopeless_share; }
+  /// Whether fewer cells are empty, or of as many the least share is larger.
+  bool is_better(const Iterate& other, const Vector& target) const {
+    return empty < other.empty || (empty == other.empty && least(target) > other.least(target));
+  }
   /// v - m, the gradient of the dual
   Vector gradient(const Vector& target) const { return target - mass(); }
   /// |v - m|
@@ -94,7 +102,12 @@ class Evaluator {
   const std::vector<double>& low() const { return low_; }
   const std::vector<double>& high() const { return high_; }
   std::size_t diagrams() const { return diagrams_; }  ///< computed so far
-  double seconds() const { return seconds_; }         ///< wall-clock time of these
+  /// Adds the diagrams of another evaluator.
+  void count_diagrams(const Evaluator& of) {
+    diagrams_ += of.diagrams_;
+    seconds_ += of.seconds_;
+  }
+  double seconds() const { return seconds_; }  ///< wall-clock time of these
 
  protected:
   /// Computes cells and conductances of at.weights.

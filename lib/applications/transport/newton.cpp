@@ -35,19 +35,20 @@ bool feed(SolveContext& context, Iterate& next, const Vector& target, double lea
 
 }  // namespace
 
-PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
-                TransportPhase phase, double exponent) {
+PhaseEnd newton(SolveContext& context, Iterate& at, const Aim& aim) {
+  const Vector& target = aim.target;
   const double least = kept_share(at.least(target));
   // A blend that takes a short step is too far from the one before; the caller tries one between them.
   const double spread = context.evaluator().spread();
-  const bool blended = spread > 0 && spread < 1, can_ramp = exponent == 1 && !context.shares().empty();
+  const bool blended = spread > 0 && spread < 1, can_ramp = aim.exponent == 1 && !context.shares().empty();
   const int patience = blended ? 1 : can_ramp ? few_short_steps : most_short_steps;
-  // Where masses are uneven in parts apart, many steps in a row have a fourth of the length.
-  const double growth = context.has_several_parts() ? 2 : 4;
+  constexpr double growth = 2;  // where masses are uneven, many steps in a row have a fourth of the length
   int short_steps = 0;
   double longest = 1;
   while (true) {
-    if (at.error(target) < context.attainable(at, target, tolerance) || context.reached(at))
+    if (aim.at_least
+            ? at.least(target) >= 1 - aim.tolerance
+            : at.error(target) < context.attainable(at, target, aim.tolerance) || context.reached(at))
       return PhaseEnd::converged;
     if (context.at_limit()) return PhaseEnd::step_limit;
     const Laplacian system = at.laplacian();
@@ -64,7 +65,7 @@ PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double
           next = context.evaluator().evaluate(std::move(weights));
           const auto better = [&] {
             return decreases_enough(next.gradient_norm(target), off, trial) ||
-                   (context.has_several_parts() && better_but_for_rounding(at, next, target));
+                   better_but_for_rounding(at, next, target);
           };
           if (!better()) return false;
           if (next.empty == 0 && next.least(target) >= least) return true;
@@ -73,8 +74,8 @@ PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double
         longest);
     if (length == 0) return PhaseEnd::stalled;
     at = std::move(next);
-    TransportStep step = step_along(direction, phase, length);
-    step.exponent = exponent;
+    TransportStep step = step_along(direction, aim.phase, length);
+    step.exponent = aim.exponent;
     context.record(step, at, target);
     longest = std::min(1.0, growth * length);
     short_steps = length <= short_step ? short_steps + 1 : 0;

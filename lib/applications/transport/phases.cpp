@@ -8,7 +8,21 @@ namespace powercell {
 namespace {
 
 constexpr int most_connections = 60;
-constexpr double uneven_masses = 30;  // ratio of the largest to the least from which a ramp comes first
+constexpr double fair_share = 1.0 / 30;  // min m_i / v_i from which Newton's method leads to the masses
+constexpr double uneven_masses = 30;     // ratio of the largest to the least from which a ramp comes first
+
+bool are_uneven(SolveContext& context) {
+  const AllSeeds& all = context.evaluator().all();
+  return all.greatest_of(context.target()) > uneven_masses * all.least_of(context.target());
+}
+
+/// Equal masses where the target's differ by orders: those take fewer steps from far away.
+Vector even_masses(SolveContext& context) {
+  const Evaluator& evaluator = context.evaluator();
+  if (!are_uneven(context)) return context.target();
+  const double total = evaluator.all().sum_of(context.target());
+  return Vector::Constant(context.target().size(), total / static_cast<double>(evaluator.count()));
+}
 
 /// Whether the masses are met within their quadrature error, which exceeds the tolerance: further steps
 /// follow noise, and none would count as converged.
@@ -79,9 +93,9 @@ TransportStep step_along(const Direction& direction, TransportPhase phase, doubl
   return step;
 }
 
-PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
-                            TransportPhase phase, double exponent) {
-  const auto solve = [&] { return newton(context, at, target, tolerance, phase, exponent); };
+PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Aim& aim) {
+  const Vector& target = aim.target;
+  const auto solve = [&] { return newton(context, at, aim); };
   if (!context.has_several_parts()) return solve();
   for (int k = 0; k < most_connections; ++k) {
     if (at.least(target) >= starved_share) {
@@ -96,12 +110,13 @@ PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Vector& ta
 PhaseEnd solve_current_density(SolveContext& context, Iterate& at) {
   PhaseEnd end = PhaseEnd::stalled;
   const auto newton_to_target = [&] {
-    return newton_across_gaps(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
+    if (at.empty == 0 && at.least(context.target()) < hopeless_share &&
+        approach(context, at, even_masses(context), fair_share) == PhaseEnd::step_limit)
+      return PhaseEnd::step_limit;
+    return newton_across_gaps(context, at, {context.target(), context.tolerance()});
   };
   if (context.has_several_parts()) {
-    const AllSeeds& all = context.evaluator().all();
-    const double ratio = all.greatest_of(context.target()) / all.least_of(context.target());
-    if (context.shares().empty() || ratio < uneven_masses) end = newton_to_target();
+    if (context.shares().empty() || !are_uneven(context)) end = newton_to_target();
     if (end == PhaseEnd::stalled && !context.shares().empty()) end = ramp(context, at);
     if (end == PhaseEnd::converged) return end;
   }
@@ -116,7 +131,7 @@ PhaseEnd solve_current_density(SolveContext& context, Iterate& at) {
 Iterate run_phases(SolveContext& context, const Vector& weights) {
   Iterate at = find_start(context, weights);
   // A cell with almost none of its mass gives no more guidance than an empty one.
-  if (context.evaluator().density_varies() && at.least(context.target()) < hopeless_share)
+  if (context.evaluator().density_varies() && at.least(context.target()) < blended_share)
     blend(context, weights, at);
   const PhaseEnd end = solve_current_density(context, at);
   if (end == PhaseEnd::converged || !at.all->any(at.weights != context.best())) return at;

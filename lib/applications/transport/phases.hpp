@@ -11,7 +11,7 @@ namespace powercell {
 /// min m_i / v_i below which a better start is looked for.
 inline constexpr double poor_share = 0.01;
 /// min m_i / v_i below which the density is blended with a uniform one.
-inline constexpr double hopeless_share = 1e-4;
+inline constexpr double blended_share = 1e-4;
 
 /// min m_i / v_i below which a cell of a domain of several parts counts as empty for connect().
 inline constexpr double starved_share = 1e-3;
@@ -28,6 +28,15 @@ enum class PhaseEnd {
   stalled,       ///< no step is accepted, or only short ones
   disconnected,  ///< no walls connect some groups of cells: the linear system has no unique solution
   step_limit,
+};
+
+/// What damped Newton solves for. Refers to the target.
+struct Aim {
+  const Vector& target;
+  double tolerance;
+  TransportPhase phase = TransportPhase::newton;
+  double exponent = 1;
+  bool at_least = false;  ///< no cell may lack more than the tolerance, but any may have more than its mass
 };
 
 /// The solution of the linear system of one step.
@@ -67,6 +76,9 @@ class SolveContext {
     return at.empty == 0 && at.error(target_) < attainable(at, target_, tolerance());
   }
   const std::vector<TransportStep>& steps() const { return steps_; }
+  int steps_left() const { return options_.max_steps - solved_; }
+  /// Counts the steps of another solve against the limit.
+  void count_steps(const SolveContext& of) { solved_ += of.solved_; }
 
   /// Solves system x = right.
   Direction solve(const Laplacian& system, const Vector& right);
@@ -106,8 +118,14 @@ TransportStep step_along(const Direction& direction, TransportPhase phase, doubl
 /// Chooses an iterate to start from: the given weights if no cell is empty; else fractions of them; else 0;
 /// else weights as if all seeds were moved into the domain by one affine map, (31a). Of all tried the one
 /// with the fewest empty cells. If a cell is far below its mass, also weights as if the seeds were moved onto
-/// the density, (31b), if these are better.
+/// the density, (31b), or by levels of clusters, if these are better.
 Iterate find_start(SolveContext& context, const Vector& weights);
+/// Tries weights as if all seeds were moved into the domain's box by one affine map, (31a).
+void try_into_box(Evaluator& evaluator, const Vector& target, Iterate& best);
+/// Where a cell is empty or far below its mass: tries weights by levels of clusters of seeds, small beside
+/// the distances between them. The parts of each cluster are spread over its cell by a transport with an
+/// entropy. Takes these weights if they are better.
+void try_by_levels(SolveContext& context, Iterate& best);
 /// For a domain of several parts and a constant density: tries weights (31d), which share the seeds among the
 /// parts, unless hardly any mass is misplaced. Replaces `best` if the dual is larger for them.
 void try_on_parts(SolveContext& context, Iterate& best);
@@ -118,12 +136,15 @@ void try_on_parts(SolveContext& context, Iterate& best);
 bool raise_starved(SolveContext& context, Iterate& at, const Vector& target, double starved);
 /// raise_starved() as a step of its own, for cells with hardly any mass.
 bool connect(SolveContext& context, Iterate& at, const Vector& target);
-/// Damped Newton towards a target of its own, (27)-(29).
-PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
-                TransportPhase phase, double exponent);
-/// Damped Newton towards a target of its own; on domains of several parts in turn with connect().
-PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
-                            TransportPhase phase, double exponent);
+/// Damped Newton, (27)-(29).
+PhaseEnd newton(SolveContext& context, Iterate& at, const Aim& aim);
+/// The same; on domains of several parts in turn with connect().
+PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Aim& aim);
+/// newton_across_gaps for masses between the present ones and a target, (31h), until each cell has the share
+/// `least` of its mass.
+/// \param at  without empty cells
+/// \return converged, stalled or step_limit
+PhaseEnd approach(SolveContext& context, Iterate& at, const Vector& target, double least);
 /// newton_across_gaps for increasing powers of the masses.
 PhaseEnd ramp(SolveContext& context, Iterate& at);
 /// Regularised Newton on the dual, (30).

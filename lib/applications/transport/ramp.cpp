@@ -8,6 +8,8 @@ namespace {
 
 constexpr double intermediate_tolerance = 0.1;  // of the masses for exponents below 1
 constexpr double smallest_stride = 1.0 / 64;    // of the exponent
+// Of masses that approach the target: the share that may lack, and the factor by which starved cells grow.
+constexpr double approach_tolerance = 0.67, growth = 5;
 
 /// Masses proportional to a power of these, with the same sum. Computed by logarithms to avoid overflow.
 Vector power_of(const AllSeeds& all, const Vector& mass, double exponent) {
@@ -52,6 +54,23 @@ double first_exponent(SolveContext& context, const Iterate& at) {
 
 }  // namespace
 
+PhaseEnd approach(SolveContext& context, Iterate& at, const Vector& target, double least) {
+  const AllSeeds& all = context.evaluator().all();
+  while (at.least(target) < least) {
+    const Vector to_go = (target.array() / at.mass().array()).log();
+    const double part = std::min(1.0, std::log(growth) / all.greatest_of(to_go));
+    Vector between = at.mass().array() * (part * to_go).array().exp();
+    between *= all.sum_of(target) / all.sum_of(between);
+    Iterate next = at;
+    const PhaseEnd end =
+        newton_across_gaps(context, next, {between, approach_tolerance, TransportPhase::ramp, part, true});
+    if (end == PhaseEnd::step_limit) return end;
+    if (end != PhaseEnd::converged || next.least(target) <= at.least(target)) return PhaseEnd::stalled;
+    at = std::move(next);
+  }
+  return PhaseEnd::converged;
+}
+
 PhaseEnd ramp(SolveContext& context, Iterate& at) {
   const double first = first_exponent(context, at);
   double reached = first, stride = 0.5;
@@ -61,9 +80,9 @@ PhaseEnd ramp(SolveContext& context, Iterate& at) {
     const bool last = exponent == 1;
     const Vector target = last ? context.target() : power_of(context, exponent);
     Iterate trial = at;
-    const PhaseEnd end =
-        newton_across_gaps(context, trial, target, last ? context.tolerance() : intermediate_tolerance,
-                           last ? TransportPhase::newton : TransportPhase::ramp, exponent);
+    const PhaseEnd end = newton_across_gaps(context, trial,
+                                            {target, last ? context.tolerance() : intermediate_tolerance,
+                                             last ? TransportPhase::newton : TransportPhase::ramp, exponent});
     if (end == PhaseEnd::step_limit || (end == PhaseEnd::converged && last)) {
       at = std::move(trial);
       return end;

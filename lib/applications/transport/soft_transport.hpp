@@ -16,7 +16,8 @@ struct Weighted {
 };
 
 /// (31e): sets the weights of `to` from those of `from`, at the temperature `heat`, a length squared.
+/// \param cut  terms below exp(-cut) of the largest are left out
 /// \return the mean entropy of the shares of `from` in a place of `to`
-double soften(const Weighted& from, Weighted& to, std::size_t d, double heat);
+double soften(const Weighted& from, Weighted& to, std::size_t d, double heat, int threads, double cut);
 
 }  // namespace powercell

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/applications/transport/gathered.hpp"
 #include "lib/applications/transport/phases.hpp"
 
 namespace powercell {
@@ -40,18 +41,19 @@ Vector weights_of_moved_seeds(std::span<const double> positions, std::size_t d, 
   return weights;
 }
 
-/// Maps the bounding box of the seeds into that of the domain, keeping proportions.
-Move into_box(const Evaluator& evaluator) {
-  const Domain& domain = evaluator.domain();
+/// Maps the bounding box of the seeds into that of the domain, keeping proportions; about where it is along
+/// periods.
+/// \param low, high  the box of the seeds
+Move into_box(const Domain& domain, const std::vector<double>& low, const std::vector<double>& high) {
   Move move;
   double scale = 0;
-  for (std::size_t c = 0; c < evaluator.dimension(); ++c) {
-    const double low = evaluator.low()[c], high = evaluator.high()[c];
+  for (std::size_t c = 0; c < low.size(); ++c) {
     const auto k = static_cast<Eigen::Index>(c);
-    move.middle[k] = low / 2 + high / 2;
-    move.center[k] = domain.low()[c] / 2 + domain.high()[c] / 2;
+    move.middle[k] = low[c] / 2 + high[c] / 2;
+    const bool bounded = domain.periods()[c] == std::array<double, 3>{};
+    move.center[k] = bounded ? domain.low()[c] / 2 + domain.high()[c] / 2 : move.middle[k];
     const double extent = domain.high()[c] - domain.low()[c];
-    if (extent > 0) scale = std::max(scale, (high - low) / (room * extent));
+    if (extent > 0) scale = std::max(scale, (high[c] - low[c]) / (room * extent));
   }
   if (scale > 0) move.linear /= scale;
   return move;
@@ -111,13 +113,6 @@ Move onto_density(const Normal& seeds, const Normal& density) {
   return {seeds.mean, density.mean, inverse * power_of(root * density.covariance * root, 0.5) * inverse};
 }
 
-bool some_outside_box(const Evaluator& evaluator) {
-  const Domain& domain = evaluator.domain();
-  for (std::size_t c = 0; c < evaluator.dimension(); ++c)
-    if (evaluator.low()[c] < domain.low()[c] || evaluator.high()[c] > domain.high()[c]) return true;
-  return false;
-}
-
 /// Tries weights as if the seeds were moved onto the density, and keeps the best. If the density has an edge,
 /// seeds spread in another shape lie beyond it until they are contracted towards the mean.
 void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
@@ -128,13 +123,29 @@ void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
     const Vector weights = weights_of_moved_seeds(positions, d, move);
     if (!weights.allFinite()) return;  // no cell has mass, or squares overflow
     Iterate found = evaluator.evaluate(weights);
-    const bool better =
-        found.empty < best.empty || (found.empty == best.empty && found.least(target) > best.least(target));
-    if (better) best = std::move(found);
+    if (found.is_better(best, target)) best = std::move(found);
   }
 }
 
 }  // namespace
+
+void try_into_box(Evaluator& evaluator, const Vector& target, Iterate& best) {
+  std::vector<double> low = evaluator.low(), high = evaluator.high(), positions;
+  std::span<const double> given = evaluator.positions();
+  if (evaluator.domain().is_periodic() && evaluator.in_one_place() != nullptr) {
+    given = positions = gathered(evaluator.domain(), given);
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const std::size_t c = k % low.size();
+      low[c] = std::min(k < low.size() ? given[k] : low[c], given[k]);
+      high[c] = std::max(k < low.size() ? given[k] : high[c], given[k]);
+    }
+  }
+  const Move move = into_box(evaluator.domain(), low, high);
+  const Vector weights = weights_of_moved_seeds(given, evaluator.dimension(), move);
+  if (evaluator.all().any(!weights.allFinite())) return;
+  Iterate found = evaluator.evaluate(weights);
+  if (found.is_better(best, target)) best = std::move(found);
+}
 
 Iterate find_start(SolveContext& context, const Vector& weights) {
   Evaluator& evaluator = context.evaluator();
@@ -151,15 +162,15 @@ Iterate find_start(SolveContext& context, const Vector& weights) {
     const bool weighted = best.all->any(!centred.isZero(0));
     for (double t = 0.5; weighted && t >= smallest_fraction; t /= 2)
       if (attempt(t * centred)) return;
-    if (weighted && attempt(Vector::Zero(centred.size()))) return;
-    if (some_outside_box(evaluator))
-      attempt(weights_of_moved_seeds(evaluator.positions(), evaluator.dimension(), into_box(evaluator)));
+    if (weighted) attempt(Vector::Zero(centred.size()));
   };
   search();
+  if (best.is_poor(target)) try_into_box(evaluator, target, best);
   if (evaluator.density_varies() && best.least(target) < poor_share) try_on_density(evaluator, target, best);
   TransportStep step;
   step.phase = TransportPhase::start;
   context.record(step, best, target);
+  if (best.is_poor(target)) try_by_levels(context, best);
   try_on_parts(context, best);
   return best;
 }

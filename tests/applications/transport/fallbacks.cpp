@@ -62,7 +62,7 @@ TEST_CASE("seeds outside the domain, beyond one side and in a notch") {
   for (const Domain& domain : {unit_box(2), letter}) {
     const TransportResult found = solve(domain, seeds.view());
     CHECK(found.converged);
-    CHECK(has_phase(found, TransportPhase::ascent) == (found.steps.front().empty > 0));
+    CHECK((found.steps.front().empty > 0 || !has_phase(found, TransportPhase::ascent)));
     check_no_empty_newton_step(found);
   }
 }
