@@ -32,7 +32,8 @@ Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std
     : setup_(setup), input_(input), buffers_(buffers) {
   if (const Period* const period = setup.period()) {
     const double margin = first_margin(*period, input.seeds);
-    if (kept && kept->images && kept->images->own == input.seeds.size() && kept->images->margin == margin) {
+    if (kept && kept->images && kept->images->own == input.seeds.size() && kept->images->margin == margin &&
+        kept->images->seed_margin.empty()) {
       images_ = std::move(kept->images);
       set_weights(*images_, input.seeds, setup.threads);
     } else {
@@ -73,10 +74,13 @@ void Active::set_hidden_aside() {
   });
 }
 
-void Active::widen(double margin) {
-  powercell::widen(*images_, *setup_.period(), margin, setup_.threads);
+bool Active::widen(double margin, std::span<const double> clearance) {
+  const std::size_t before = images_->seeds.size();
+  powercell::widen(*images_, *setup_.period(), margin, clearance, setup_.threads);
+  if (images_->seeds.size() == before) return false;
   tree_ = build_packed_tree(seeds(), setup_.threads);
   buffers_.upload(setup_.on_device.frame(), seeds(), tree_, setup_.threads);
+  return true;
 }
 
 void Active::exclude_flat_cells(std::span<const std::uint32_t> ranks) {

@@ -56,7 +56,9 @@ class Active {
   void exclude_flat_cells(std::span<const std::uint32_t> ranks);
 
   /// Appends images within a wider margin; ranks stay, and candidates must be made anew. \pre images()
-  void widen(double margin);
+  /// \param clearance  as for powercell::widen
+  /// \return whether there are any
+  bool widen(double margin, std::span<const double> clearance);
 
   KeptTree release_tree() && { return {std::move(tree_), std::move(images_)}; }
 

@@ -1,6 +1,7 @@
 #include "lib/diagram/cell_collector.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "kernels/layout.h"
@@ -33,6 +34,7 @@ CellCollector::CellCollector(const Setup& setup, Active& active, Plan& plan, Wan
   geometry_.place(*placement_);
   proof_.emplace(*setup.period(), *active.images(),
                  setup.float32() ? proved_reach_error_float : proved_reach_error_double);
+  clearance_.assign(active.images()->own, std::numeric_limits<double>::infinity());
   if (want.adjacency && plan.selected)
     selected_walls_.emplace(*placement_, row_seeds().size(), setup.threads);
   else if (want.adjacency)
@@ -88,11 +90,24 @@ void CellCollector::keep_reach(const ClipChunk& chunk, const PieceSet& pieces) {
 void CellCollector::prove_reach(const ClipChunk& chunk, const PieceSet& pieces) {
   const double unit = setup_.on_device.frame().unit(1);
   for (std::size_t k = 0; k < chunk.pair_seed.size(); ++k) {
+    double& clearance = clearance_[chunk.pair_seed[k]];
+    if (pieces.status[k] == PIECE_EMPTY) clearance = 0;  // and so are the cells of all images
     if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
-    const double margin = proof_->margin_for(chunk.pair_seed[k], pieces.reach[k] * unit);
+    clearance = proof_->clearance(chunk.pair_seed[k], pieces.reach[k] * unit);
+    const double margin = proof_->margin_for(chunk.pair_seed[k], clearance);
     if (margin > 0) beyond_.push_back(chunk.pair_row[k]);
     margin_ = std::max(margin_, margin);
   }
+}
+
+void CellCollector::prove_again() {
+  margin_ = 0;
+  std::erase_if(beyond_, [&](std::uint32_t row) {
+    const std::uint32_t rank = rank_of_row(row);
+    const double margin = proof_->margin_for(rank, clearance_[rank]);
+    margin_ = std::max(margin_, margin);
+    return margin == 0;
+  });
 }
 
 std::vector<std::uint32_t> CellCollector::take_beyond() {

@@ -31,7 +31,12 @@ class CellCollector {
 
   /// In a periodic domain: whether cells reach beyond the margin in which there are images.
   bool has_beyond() const { return !beyond_.empty(); }
-  double margin() const { return margin_; }  ///< that these need
+  std::size_t beyond() const { return beyond_.size(); }  ///< how many
+  double margin() const { return margin_; }              ///< that these need
+  /// Per seed, by rank, the distance within which it has all its neighbours.
+  std::span<const double> clearance() const { return clearance_; }
+  /// Strikes off those that are proved by a wider margin without further images.
+  void prove_again();
   /// Removes what was collected of these. \return their rows, ascending
   std::vector<std::uint32_t> take_beyond();
 
@@ -81,6 +86,7 @@ class CellCollector {
   std::optional<SelectedWalls> selected_walls_;
   std::vector<std::uint32_t> beyond_;  // ascending: rows of cells that reach too far
   double margin_ = 0;                  // that these need
+  std::vector<double> clearance_;      // by rank; infinite for cells that are not known
   std::vector<double> reach_;          // by row of the results
   double seconds_ = 0;
 };

@@ -18,6 +18,9 @@ namespace {
 
 /// Fewer pairs are clipped faster by one device than by several.
 constexpr std::uint64_t least_shared_pairs = 16384;
+/// Images that a seed mostly has at most. Where few cells reach beyond the margin, all images of their seeds
+/// are made at once: to clip these cells several times costs more.
+constexpr std::size_t most_images = 26;
 /// Of a margin that must be widened, against rounding.
 constexpr double more_than_needed = 1.001;
 
@@ -203,7 +206,11 @@ void Pass::timed(const Candidates& candidates, Timings& timings, const Body& bod
 
 void Pass::clip_beyond(Timings& timings) {
   // A cell that lacks an image reaches farther than it will.
-  active_.widen(std::min(more_than_needed * collector_.margin(), 2 * active_.images()->margin));
+  const Images& images = *active_.images();
+  const double margin = collector_.beyond() * most_images < images.own
+                            ? complete_margin(*setup_.period())
+                            : std::min(more_than_needed * collector_.margin(), 2 * images.margin);
+  if (!active_.widen(margin, collector_.clearance())) return collector_.prove_again();
   const std::vector<std::uint32_t> rows = collector_.take_beyond();
   write_log(LogLevel::info, [&] {
     return std::to_string(active_.seeds().size() - active_.images()->own) + " images of " +

@@ -97,6 +97,31 @@ void append_sorted(Images& images, std::span<const double> positions, std::span<
   });
 }
 
+/// Appends the images of each seed within a margin, margin_of(seed), without those that it has.
+template <class MarginOf>
+void append_within(Images& images, const Period& period, const MarginOf& margin_of, int threads) {
+  const auto d = static_cast<std::size_t>(images.seeds.dimension);
+  const bool has_images = images.margin > 0;
+  std::vector<double> positions;
+  std::vector<std::uint32_t> rank;
+  std::vector<Shift> shift;
+  for (std::uint32_t r = 0; r < images.own; ++r) {
+    if (has_images && margin_of(r) <= images.margin_of(r)) continue;
+    const double* const x = &images.seeds.positions[r * d];
+    const Period::Row f = period.fraction(x);
+    const ShiftRange old(period, f, margins(period, images.margin_of(r)));
+    ShiftRange(period, f, margins(period, margin_of(r))).for_each([&](const Shift& s) {
+      if (s == Shift{} || (has_images && old.contains(s))) return;
+      const Period::Row y = period.moved(x, s);
+      positions.insert(positions.end(), y.begin(), y.begin() + static_cast<std::ptrdiff_t>(d));
+      rank.push_back(r);
+      shift.push_back(s);
+    });
+    check_count(images.seeds.size() + rank.size());
+  }
+  append_sorted(images, positions, rank, shift, threads);
+}
+
 }  // namespace
 
 double first_margin(const Period& period, const SeedSet& seeds) {
@@ -114,36 +139,31 @@ double first_margin(const Period& period, const SeedSet& seeds) {
   return std::exp2(std::ceil(margin_steps * std::log2(margin)) / margin_steps);
 }
 
+double complete_margin(const Period& period) {
+  double margin = 0;
+  for (int k = 0; k < period.count(); ++k) margin = std::max(margin, period.reach(k) * period.spacing(k));
+  return (1 + fraction_rounding) * margin;
+}
+
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads) {
   Images images;
   images.seeds = seeds;
   images.own = static_cast<std::uint32_t>(seeds.size());
-  widen(images, period, margin, threads);
+  append_within(
+      images, period, [&](std::uint32_t) { return margin; }, threads);
+  images.margin = margin;
   return images;
 }
 
-void widen(Images& images, const Period& period, double margin, int threads) {
-  const auto d = static_cast<std::size_t>(images.seeds.dimension);
-  const bool has_images = images.seeds.size() > images.own;
-  const std::array<double, 3> along = margins(period, margin), before = margins(period, images.margin);
-  std::vector<double> positions;
-  std::vector<std::uint32_t> rank;
-  std::vector<Shift> shift;
-  for (std::uint32_t r = 0; r < images.own; ++r) {
-    const double* const x = &images.seeds.positions[r * d];
-    const Period::Row f = period.fraction(x);
-    const ShiftRange old(period, f, before);
-    ShiftRange(period, f, along).for_each([&](const Shift& s) {
-      if (s == Shift{} || (has_images && old.contains(s))) return;
-      const Period::Row y = period.moved(x, s);
-      positions.insert(positions.end(), y.begin(), y.begin() + static_cast<std::ptrdiff_t>(d));
-      rank.push_back(r);
-      shift.push_back(s);
-    });
-    check_count(images.seeds.size() + rank.size());
-  }
-  append_sorted(images, positions, rank, shift, threads);
+void widen(Images& images, const Period& period, double margin, std::span<const double> clearance,
+           int threads) {
+  std::vector<double> next(images.own);
+  for (std::uint32_t r = 0; r < images.own; ++r)
+    next[r] = std::max(images.margin_of(r), std::min(margin, clearance[r]));
+  append_within(
+      images, period, [&](std::uint32_t r) { return next[r]; }, threads);
   images.margin = margin;
+  images.seed_margin = std::move(next);
 }
 
 void set_weights(Images& images, const SeedSet& seeds, int threads) {
@@ -188,16 +208,19 @@ MarginProof::MarginProof(const Period& period, const Images& images, double reac
                                                        images.seeds.weights.begin() + images.own)),
       factor_((1 + reach_error) * (1 + proof_rounding)) {}
 
-double MarginProof::margin_for(std::uint32_t rank, double reach) const {
+double MarginProof::clearance(std::uint32_t rank, double reach) const {
   const double excess = std::max(most_weight_ - images_.seeds.weights[rank], 0.0);
-  const double clear = factor_ * (reach + std::sqrt(reach * reach + excess));  // (34b)
+  return factor_ * (reach + std::sqrt(reach * reach + excess));  // (34b)
+}
+
+double MarginProof::margin_for(std::uint32_t rank, double clearance) const {
   const Period::Row f =
       period_.fraction(&images_.seeds.positions[rank * static_cast<std::size_t>(images_.seeds.dimension)]);
   double needed = 0;
   for (int k = 0; k < period_.count(); ++k) {
     if (is_complete(period_, k, images_.margin)) continue;
     const double x = f[static_cast<std::size_t>(k)];
-    needed = std::max(needed, clear - std::min(x, 1 - x) * period_.spacing(k));
+    needed = std::max(needed, clearance - std::min(x, 1 - x) * period_.spacing(k));
   }
   return needed <= images_.margin ? 0 : needed;
 }

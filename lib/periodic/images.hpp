@@ -14,8 +14,8 @@
 namespace powercell {
 
 /// Wrapped seeds, and behind them in rank their images within a margin around the part of the lattice that
-/// seeds are wrapped into. Only the cells of the seeds themselves are clipped. `input` of an image is that of
-/// its seed.
+/// seeds are wrapped into; of seeds with small cells, only those that such a cell can have as neighbours.
+/// Only the cells of the seeds themselves are clipped. `input` of an image is that of its seed.
 struct Images {
   SeedSet seeds;
   std::uint32_t own = 0;            ///< seeds; the images have the ranks from here on
@@ -23,7 +23,10 @@ struct Images {
   std::vector<Shift> shift;         ///< per image: from its seed, in the reduced basis
   std::vector<std::int32_t> code;   ///< per image: a number for its shift, minus that of the opposite one
   double margin = 0;                ///< a distance
+  /// Per seed the margin of its own images, where these differ; else empty.
+  std::vector<double> seed_margin;
 
+  double margin_of(std::uint32_t seed) const { return seed_margin.empty() ? margin : seed_margin[seed]; }
   std::uint32_t seed_of(std::uint32_t r) const { return r < own ? r : rank[r - own]; }
   Shift shift_of(std::uint32_t r) const { return r < own ? Shift{} : shift[r - own]; }
 };
@@ -31,13 +34,19 @@ struct Images {
 /// The margin to try first: what the largest cells of white noise need.
 double first_margin(const Period& period, const SeedSet& seeds);
 
+/// The margin within which there are all images that a cell can have as neighbours, (34a).
+double complete_margin(const Period& period);
+
 /// \param seeds  wrapped, in Hilbert order
 /// \throw Error unsupported if there would be more than most_seeds_of_diagram
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads);
 
 /// Appends the images within a wider margin. The others keep their ranks.
+/// \param clearance  per seed a distance within which it has all its neighbours, (34b): its own images are
+///                   within this margin
 /// \throw Error as make_images
-void widen(Images& images, const Period& period, double margin, int threads);
+void widen(Images& images, const Period& period, double margin, std::span<const double> clearance,
+           int threads);
 
 /// The images of seeds with new weights at the same positions.
 void set_weights(Images& images, const SeedSet& seeds, int threads);
@@ -51,9 +60,11 @@ class MarginProof {
  public:
   /// \param reach_error  of margin_for(), relative
   MarginProof(const Period& period, const Images& images, double reach_error);
-  /// The margin that the cell of seed `rank` needs for its proof, 0 if it has it.
+  /// The distance from seed `rank` within which it has all its neighbours.
   /// \param reach  no point of the cell is farther from its seed
-  double margin_for(std::uint32_t rank, double reach) const;
+  double clearance(std::uint32_t rank, double reach) const;
+  /// The margin that the cell of seed `rank` needs for its proof, 0 if it has it.
+  double margin_for(std::uint32_t rank, double clearance) const;
 
  private:
   const Period& period_;

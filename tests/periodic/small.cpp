@@ -14,9 +14,15 @@ namespace {
 /// Weights up to this many squared mean spacings.
 constexpr double weight_ranges[] = {0, 0.5, 4, 400};
 
-void check_all(const PeriodicSpace& space, std::size_t n, Random& random) {
+/// \param part  of the space, about a place at random, in which the seeds are
+void check_all(const PeriodicSpace& space, std::size_t n, Random& random, double part = 1) {
   for (const double range : weight_ranges) {
     SeedArray seeds = periodic_seeds(space, n, random);
+    const SeedArray place = periodic_seeds(space, 1, random);
+    for (std::size_t k = 0; k < seeds.positions.size() && part < 1; ++k) {
+      const double middle = place.positions[k % static_cast<std::size_t>(seeds.dimension)];
+      seeds.positions[k] = middle + part * (seeds.positions[k] - middle);
+    }
     const double h =
         std::pow(static_cast<double>(space.measure()) / static_cast<double>(n), 1.0 / space.dimension);
     for (double& w : seeds.weights) w = random.uniform() * range * h * h;
@@ -87,4 +93,15 @@ TEST_CASE("lattices of space, reduced and not") {
     check_all(lattice_space({{{0, 1, 1}, {1, 0, 1}, {1, 1, 0}}}, 3, 3), n, random);  // face-centred
     check_all(lattice_space({{{1, 0, 0}, {2.2, 1, 0}, {0.4, 1.7, 1}}}, 3, 5), n, random);
   }
+}
+
+TEST_CASE("droplets in empty periodic space") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const Box box{{-1, 2, 0}, {2, 4, 2}};
+  constexpr double part = 0.1;
+  check_all(periodic_box_space(2, box, {true, true, false}, 3), 40, random, part);
+  check_all(periodic_box_space(3, box, {true, true, true}, 2), 20, random, part);
+  check_all(periodic_box_space(3, box, {true, false, true}, 2), 20, random, part);
+  check_all(lattice_space({{{1, 0, 0}, {0.4, 1.2, 0}, {-0.3, 0.2, 0.9}}}, 3, 2), 20, random, part);
 }
