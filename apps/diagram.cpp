@@ -120,7 +120,7 @@ int run(const DiagramArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
   Progress progress({{stage::reading, 5}, {stage::opening, 2}, {"computing", 78}, {stage::writing, 15}},
                     arguments.silent());
-  const Inputs inputs = read_inputs(arguments);
+  Inputs inputs = read_inputs(arguments);
   print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
   for (const std::string& path : arguments.outputs) io::check_output(path, domain, inputs.seeds.count());
@@ -139,6 +139,7 @@ int run(const DiagramArguments& arguments) {
   const std::vector<double> seconds = compute_repeatedly(arguments, diagram, seeds, only, progress);
   RunReport report = report_of(diagram);
   report.repeats = seconds;
+  note_hidden(inputs, report);
   describe_inputs(inputs, report);
   if (arguments.only.empty()) require_partition(report);
   progress.begin(stage::writing);

@@ -74,6 +74,28 @@ void note_small_weights(Inputs& inputs) {
         share));
 }
 
+/// Counts the seeds that stand for images inside. \return what a report says of them, and of bounded axes
+std::string note_images(Inputs& inputs, const std::string& along_bounded) {
+  const Domain& domain = inputs.domain.domain;
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  const std::vector<double>&given = inputs.seeds.positions, inside = domain.wrapped(given);
+  double longest = 0;
+  for (std::size_t c = 0; c < d; ++c) longest = std::max(longest, domain.high()[c] - domain.low()[c]);
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < given.size(); i += d) {
+    double by = 0;
+    for (std::size_t c = 0; c < d; ++c) by = std::max(by, std::abs(inside[i + c] - given[i + c]));
+    moved += by > 1e-9 * longest;  // less is the rounding of positions inside
+  }
+  inputs.outside += moved;
+  if (moved == 0) return along_bounded;
+  const std::string images =
+      fmt::format("{} of {} seeds {} outside the periods and {} for {} inside", with_commas(moved),
+                  with_commas(inputs.seeds.count()), moved == 1 ? "lies" : "lie",
+                  moved == 1 ? "stands" : "stand", moved == 1 ? "an image" : "images");
+  return along_bounded.empty() ? images : along_bounded + "; " + images;
+}
+
 void add_columns(CLI::App& command, InputArguments& arguments) {
   io::ColumnChoice& columns = arguments.columns;
   const auto add = [&](const char* option, std::string& column, const char* help, const char* otherwise) {
@@ -240,6 +262,7 @@ Inputs read_inputs(const InputArguments& arguments) {
   if (!inputs.seeds.columns.note.empty()) inputs.notes.push_back(inputs.seeds.columns.note);
   scale_weights(inputs, arguments.scale_weights);
   note_small_weights(inputs);
+  if (made.is_periodic() && !random) outside = note_images(inputs, outside);
   if (!outside.empty()) inputs.notes.push_back(outside);
   return inputs;
 }
@@ -260,6 +283,16 @@ io::LoadedDomain read_plane_domain(const InputArguments& arguments, const std::s
   notes.push_back(domain.description);
   notes.insert(notes.end(), place.notes.begin(), place.notes.end());
   return domain;
+}
+
+void note_hidden(Inputs& inputs, const RunReport& report) {
+  const std::vector<double>& weights = inputs.seeds.weights;
+  if (2 * report.hidden <= report.seeds || weights.empty()) return;
+  inputs.notes.push_back(fmt::format(
+      "weights: {} of {} seeds are hidden, as the range of the weights is {:.2g} times the squared mean "
+      "distance of the seeds; a weight is a length squared, r * r for a radius r (--scale-weights auto "
+      "brings the range to a quarter of that distance squared)",
+      with_commas(report.hidden), with_commas(report.seeds), range(weights) / squared_spacing(inputs)));
 }
 
 void describe_inputs(const Inputs& inputs, RunReport& report) {

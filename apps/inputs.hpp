@@ -56,6 +56,9 @@ io::LoadedDomain read_plane_domain(const InputArguments& arguments, const std::s
                                    const std::function<io::SeedColumns(int dimension)>& columns,
                                    std::vector<std::string>& notes);
 
+/// Adds a note where weights that are far too large hide most seeds.
+void note_hidden(Inputs& inputs, const RunReport& report);
+
 /// Enters what a report says of them.
 void describe_inputs(const Inputs& inputs, RunReport& report);
 

@@ -30,7 +30,7 @@ std::string building_note(double seconds);
 struct RunReport {
   std::size_t seeds = 0, cells = 0, hidden = 0, duplicate = 0;
   std::size_t selected = 0;  ///< seeds whose cells were asked for
-  std::size_t outside = 0;   ///< seeds outside the domain's box
+  std::size_t outside = 0;   ///< seeds outside the domain's box, also in periodic domains
   double measure = 0, domain_measure = 0, relative_error = 0;
   std::string device, precision, neighbors;
   Timings timings;              ///< of the last time

@@ -66,11 +66,20 @@ class Drawing {
                        output_.map.value[cell.node]);
   }
 
-  // The wall of a group is drawn over its children.
+  // Whether it has the outline of the group around it, as an only child has.
+  bool fills(const TreemapScene::Cell& cell, const TreemapScene::Cell& around) const {
+    const auto at = [&](std::uint64_t v) {
+      return scene_.points.begin() + static_cast<std::ptrdiff_t>(2 * v);
+    };
+    return std::equal(at(cell.first), at(cell.end), at(around.first), at(around.end));
+  }
+
+  // The wall of a group is drawn over its children: those that fill it need none of their own.
   void close_up_to(std::size_t k) {
     while (!open_.empty() && k > open_.back() + scene_.below[open_.back()]) {
-      path(scene_.cells[open_.back()]);
+      const TreemapScene::Cell& group = scene_.cells[open_.back()];
       open_.pop_back();
+      if (open_.empty() || !fills(group, scene_.cells[open_.back()])) path(group);
       if (open_.size() < deepest_group) file_.write("</g>\n");
     }
   }

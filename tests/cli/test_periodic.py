@@ -46,6 +46,16 @@ class Periodic(ToolTest):
         shifts = {(row["seed"], row["neighbor"], row["sx"], row["sy"]) for row in self.rows("out_w.csv")}
         self.assertIn(("0", "1", "-3", "-7"), shifts)
 
+    def test_seeds_outside_are_counted(self):
+        (self.folder / "out.csv").write_text("x,y,z\n0.5,0.5,0.5\n-0.5,0.5,0.25\n0.25,0.5,1.5\n0.1,0.2,0.3\n")
+        for domain, flags, outside in (("cube", ["--periodic"], 2), ("cube", ["--periodic=x"], 2), ("cube", [], 2),
+                                       ("lattice:1,0,0/0.2,1,0/0,0,1", [], 2)):
+            with self.subTest(domain=domain, flags=flags):
+                command = ("diagram", "--domain", domain, *flags, "--seeds", "out.csv")
+                self.assertEqual(self.report(*command)["outside"], outside)
+                self.assertIn("1 of 4 seeds lies outside" if flags == ["--periodic=x"] else "2 of 4 seeds lie outside",
+                              self.good(*command).stdout)
+
     def test_laws_of_diagrams_but_not_of_saved_ones(self):
         self.good("diagram", "--domain", "square", "--periodic", "--seeds", "random:8", "-o", "d.json")
         saved = json.loads((self.folder / "d.json").read_text())

@@ -228,6 +228,18 @@ class Points(ToolTest):
         self.bad(1, "try --x-column 'b' --y-column 'a';", "diagram", "--domain", "land.wkt", "--seeds",
                  self.write("swapped.csv", "a;b\n" + rows))
 
+    def test_weights_that_hide_most_seeds_are_named(self):
+        rows = [(k % 17 / 17 + .01, k % 23 / 23 + .01, 40 * (k % 7)) for k in range(300)]
+        (self.folder / "w.csv").write_text("x,y,weight\n" + "".join(f"{x},{y},{w}\n" for x, y, w in rows))
+        command = ("diagram", "--domain", "square", "--seeds", "w.csv")
+        said = self.good(*command).stdout
+        self.assertIn("of 300 seeds are hidden", said)
+        hidden = self.report(*command)["hidden"]
+        self.assertGreater(hidden, 150)
+        advised = self.report(*command, "--scale-weights", "auto")
+        self.assertLess(advised["hidden"], hidden / 10)
+        self.assertNotIn("are hidden, as", "".join(advised["notes"]))
+
 
 if __name__ == "__main__":
     unittest.main()

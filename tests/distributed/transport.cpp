@@ -133,9 +133,10 @@ TEST_CASE("transport on ranks: the steps and weights of one process") {
         INFO(dimension << "D " << name(distribution) << ", masses over " << range);
         const TransportProblem problem = problem_of(unit_box(dimension), distribution, 150, range, random);
         const TransportResult expected = in_one_process(problem);
+        const int more = distribution == Distribution::cluster ? from_afar : 1;
         for (const std::size_t ranks : {1U, 2U, 3U})
-          check_on_ranks(problem, along_curve(problem.seeds, ranks), expected);
-        check_on_ranks(problem, at_random(problem.seeds, 3, random), expected, {{}, true});
+          check_on_ranks(problem, along_curve(problem.seeds, ranks), expected, {}, more);
+        check_on_ranks(problem, at_random(problem.seeds, 3, random), expected, {{}, true}, more);
       }
 }
 
@@ -150,7 +151,7 @@ TEST_CASE("transport on ranks: a polygon with a hole, a density, and seeds outsi
   const TransportResult expected =
       transport(test_device(), problem.domain, problem.seeds.view(), {}, options.transport);
   CHECK(expected.total_mass < 0.9 * problem.domain.measure());
-  check_on_ranks(problem, at_random(problem.seeds, 3, random), expected, options, 3);
+  check_on_ranks(problem, at_random(problem.seeds, 3, random), expected, options, from_afar);
 }
 
 TEST_CASE("transport on ranks: empty ranks, more ranks than seeds, one seed") {

@@ -43,6 +43,10 @@ inline TransportResult solve_rank(Communicator& communicator, DistributedLinearS
                                options);
 }
 
+/// One process may take fewer steps from clusters of seeds and from seeds outside, which it spreads over the
+/// domain first: so many.
+inline constexpr int from_afar = 12;
+
 /// Compares the solution of a rank with that of one process, with its number of steps but for `more`.
 inline void check_rank_solution(const TransportProblem& problem, const std::vector<std::uint64_t>& ids,
                                 const TransportResult& found, const TransportResult& expected, int more = 1) {

@@ -131,6 +131,14 @@ class Treemap(unittest.TestCase):
         labels = re.findall(r"<text[^>]*>([^<]*)</text>", (self.folder / "t.svg").read_text(encoding="utf-8"))
         self.assertEqual(sorted(labels), ["alpha", "other"])
 
+    def test_a_long_chain_is_drawn_once(self):
+        groups = "".join(f"g{k},{f'g{k - 1}' if k > 0 else 'top'},\n" for k in range(1000))
+        self.write("t.csv", f"id,parent,value\ntop,,\nother,top,3\n{groups}leaf,g999,1\n")
+        self.good("t.csv", "-o", "t.svg")
+        picture = (self.folder / "t.svg").read_text(encoding="utf-8")
+        self.assertLess(len(picture), 100_000)
+        self.assertEqual(len(re.findall("<path ", picture)), 4)  # both leaves, the group around 'leaf', and all
+
     def test_update_stays_close(self):
         rows = made_rows(300)
         self.table("t.csv", rows)
