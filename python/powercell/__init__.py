@@ -57,7 +57,7 @@ from ._errors import Error  # noqa: E402
 from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
 from ._out_of_core import compute_out_of_core  # noqa: E402
-from ._outside import SeedsOutsideWarning  # noqa: E402
+from ._outside import HiddenSeedsWarning, SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
 from ._queue import DeviceDiagram  # noqa: E402
 from ._results import Adjacency, BoundaryWalls, Status  # noqa: E402
@@ -90,6 +90,7 @@ __all__ = [
     "Domain",
     "Error",
     "ExchangeReport",
+    "HiddenSeedsWarning",
     "KernelBuilds",
     "LawCheck",
     "MeshReport",

@@ -44,6 +44,8 @@ def check_shape(found: tuple[int, ...], name: str, shape: Sequence[Optional[int]
 def reals(value: ArrayLike, name: str, shape: Sequence[Optional[int]], why: str = "") -> Reals:
     """A C-contiguous array of doubles. Copies only where the argument is something else."""
     array = _plain(value, name)
+    if array.dtype.kind == "b":
+        raise ValueError(f"{name} has the type bool; numbers are expected")
     if array.size == 0 and len(shape) == 2 and array.ndim < 2:
         array = array.reshape((0, shape[1] or 0))
     check_shape(array.shape, name, shape, why)

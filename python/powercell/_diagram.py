@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,11 +14,28 @@ from . import _core, _looks
 from ._arrays import Indices, Reals, indices, optional_reals, reals
 from ._device import Device, DeviceLike, open_device
 from ._domain import Domain
+from ._frames import points_of, values_of
 from ._options import diagram_options
-from ._outside import warn_of_seeds_outside
+from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
 from ._progress import Progress, fraction_bar, progress_function
 from ._results import Adjacency, BoundaryWalls, Status
-from ._shapes import require_same_crs
+
+# What results are called elsewhere.
+_OTHER_NAMES = {
+    "area": "mass",
+    "areas": "mass",
+    "volume": "mass",
+    "volumes": "mass",
+    "measure": "mass",
+    "measures": "mass",
+    "centroids": "centroid",
+    "neighbours": "neighbors",
+    "points": "positions",
+    "ridge_points": "adjacency",
+    "regions": "cells",
+    "vertices": "cells",
+    "radii": "weights",
+}
 
 
 class Diagram:
@@ -33,8 +51,12 @@ class Diagram:
     positions : (n, d) array_like
         Seeds; d is 2 for polygons, 3 for surfaces and volumes. They may lie outside the domain; if
         most do, that is warned of.
-    weights : (n,) array_like, optional
-        Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram.
+        Of a table of pandas columns x, y, z go by their names; of GeoPandas its points are taken.
+    weights : (n,) array_like or str, optional
+        Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram. A series goes
+        by its labels; of a table the name of a column will do.
+    radii : (n,) array_like or str, optional
+        In place of weights, which are their squares.
     device : Device, str or list of these, optional
         As for :meth:`Device.choose`. Default: the best one.
     precision : {"auto", "double", "float"}
@@ -64,6 +86,8 @@ class Diagram:
     -----
     SeedsOutsideWarning
         Fewer than one seed in twenty lies in the domain's box.
+    HiddenSeedsWarning
+        More than half of the seeds have no cell, when measures are first used.
 
     Raises
     ------
@@ -100,6 +124,7 @@ class Diagram:
         twin_queries: bool = True,
         keep_mesh: bool = False,
         progress: Progress = None,
+        radii: Optional[ArrayLike] = None,
     ) -> None:
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
@@ -119,39 +144,65 @@ class Diagram:
         progress_function(progress)  # refuses what is none
         self._progress = progress
         self._columns: Optional[Any] = None
-        checked = self._checked(positions, weights)
+        checked = self._checked(positions, weights, radii)
         self._core: Any = _core.Diagram(open_device(device), domain._core, options)
         self._set(*checked)
 
     def _checked(
-        self, positions: ArrayLike, weights: Optional[ArrayLike]
+        self, positions: ArrayLike, weights: Optional[ArrayLike], radii: Optional[ArrayLike] = None
     ) -> tuple[Reals, Optional[Reals]]:
-        geometry = getattr(positions, "geometry", None)
-        if geometry is not None and hasattr(geometry, "x"):  # points of GeoPandas, with their columns
-            require_same_crs(positions, self.domain.crs)
-            self._columns = positions
-            positions = np.column_stack([geometry.x, geometry.y])
         d = self.domain.dimension
         where = "in the plane" if d == 2 else "in space"
-        points = reals(positions, "positions", (None, d), f", since the domain is {where}")
-        return points, optional_reals(weights, "weights", (len(points),), ", one for each seed")
+        given = points_of(positions, d, self.domain.crs)
+        points = reals(given, "positions", (None, d), f", since the domain is {where}")
+        if given is not positions and hasattr(positions, "geometry"):  # points of GeoPandas, with their columns
+            self._columns = positions
+        if radii is not None and weights is not None:
+            raise ValueError("weights and radii are given; weights are the squares of radii: pass one of them")
+        each = ", one for each seed"
+        if radii is None:
+            return points, optional_reals(values_of(weights, positions, "weights"), "weights", (len(points),), each)
+        checked = reals(values_of(radii, positions, "radii"), "radii", (len(points),), each)
+        if (checked < 0).any():
+            raise ValueError(f"radii: row {int(np.argmax(checked < 0))} is negative")
+        return points, checked * checked
 
     def _set(self, positions: Reals, weights: Optional[Reals]) -> None:
         self._core.set_seeds(positions, weights)
         self._positions, self._weights = positions, weights
+        self._hidden_known = weights is None  # without weights only duplicates have no cell
         self._selection: Optional[Indices] = None
         warn_of_seeds_outside(self.domain, positions)
 
-    def set_seeds(self, positions: ArrayLike, weights: Optional[ArrayLike] = None) -> None:
-        """Replaces the seeds; memory and programs on the device are reused."""
+    def set_seeds(
+        self, positions: ArrayLike, weights: Optional[ArrayLike] = None, *, radii: Optional[ArrayLike] = None
+    ) -> None:
+        """Replaces the seeds; memory and programs on the device are reused.
+
+        Without weights as many seeds as before keep theirs.
+
+        Raises
+        ------
+        ValueError
+            Another number of seeds without weights, where the seeds before had some.
+        """
         self._columns = None
-        self._set(*self._checked(positions, weights))
+        points, given = self._checked(positions, weights, radii)
+        if given is None and self._weights is not None and self._weights.any():
+            if len(points) != len(self._weights):
+                raise ValueError(
+                    f"{len(points)} seeds without weights follow {len(self._weights)} with weights; "
+                    "pass weights, or np.zeros(n) for none"
+                )
+            given = self._weights
+        self._set(points, given)
 
     def set_weights(self, weights: ArrayLike) -> None:
         """New weights for the same positions; only what depends on weights is computed again."""
         checked = reals(weights, "weights", (len(self._positions),), ", one for each seed")
         self._core.set_weights(checked)
         self._weights = checked
+        self._hidden_known = False
 
     def select(self, seeds: ArrayLike) -> None:
         """From now on computes the cells of some seeds only, against all seeds, until :meth:`select_all` or new seeds.
@@ -212,7 +263,11 @@ class Diagram:
     def _measures(self) -> Any:
         if self._progress:
             self.compute(adjacency=False)
-        return self._core.measures()
+        measures = self._core.measures()
+        if not self._hidden_known:
+            self._hidden_known = True
+            warn_of_hidden_seeds(measures.status)
+        return measures
 
     @property
     def mass(self) -> Reals:
@@ -398,6 +453,14 @@ class Diagram:
             ("device", f"{self.device.name}, {self.precision}"),
             ("time", f"{self.timings.total:.3g} s"),
         ]
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            known = [other for other in dir(type(self)) if other[0] != "_"]
+            close = [] if name[0] == "_" else difflib.get_close_matches(name, known, 1)
+            other = _OTHER_NAMES.get(name, close[0] if close else "")
+            raise AttributeError(f"a Diagram has no '{name}'" + (f"; did you mean '{other}'?" if other else ""))
 
     def __repr__(self) -> str:
         return f"<powercell.Diagram of {len(self)} seeds in {self.domain!r}>"

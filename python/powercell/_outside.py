@@ -1,9 +1,12 @@
-"""A warning of seeds that miss the domain."""
+"""Warnings of seeds that miss the domain, and of those that others hide."""
 
 from __future__ import annotations
 
 import sys
 import warnings
+from typing import Any
+
+import numpy as np
 
 from . import _core
 from ._arrays import Reals
@@ -14,6 +17,12 @@ class SeedsOutsideWarning(UserWarning):
     """Fewer than one seed in twenty lies in the domain's box, which is hardly meant: coordinates in another order,
     system or unit. The message says which would fit. ``warnings.simplefilter("ignore", pc.SeedsOutsideWarning)``
     silences it; seeds outside are legal and have cells where they are the nearest.
+    """
+
+
+class HiddenSeedsWarning(UserWarning):
+    """More than half of the seeds have no cell: weights that are radii, or of another unit, hide the others.
+    ``warnings.simplefilter("ignore", pc.HiddenSeedsWarning)`` silences it.
     """
 
 
@@ -31,5 +40,16 @@ def warn_of_seeds_outside(domain: Domain, positions: Reals) -> None:
         warnings.warn(
             f"{text}. Seeds may lie outside; if these are meant to, ignore powercell.SeedsOutsideWarning",
             SeedsOutsideWarning,
+            stacklevel=_level_of_caller(),
+        )
+
+
+def warn_of_hidden_seeds(status: Any) -> None:
+    hidden = int(np.count_nonzero(status == 1))
+    if 2 * hidden > len(status):
+        warnings.warn(
+            f"{hidden:,} of {len(status):,} seeds are hidden by others. A weight is a length squared: pass radii=... for "
+            "radii. If this is meant, ignore powercell.HiddenSeedsWarning",
+            HiddenSeedsWarning,
             stacklevel=_level_of_caller(),
         )

@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _looks
-from ._arrays import Indices, Reals
+from ._arrays import Reals
+
+
+def _signed(numbers: Any) -> Any:
+    """The same memory as signed integers, whose differences do not wrap; a copy of 64 bits where that does not fit."""
+    if numbers.dtype == np.uint64:
+        return numbers.view(np.int64)
+    return numbers.view(np.int32) if not numbers.size or int(numbers.max()) < 2**31 else numbers.astype(np.int64)
 
 
 class Status(enum.IntEnum):
@@ -28,8 +35,8 @@ class Adjacency:
 
     Attributes
     ----------
-    indptr : (n + 1,) uint64
-    indices : (m,) uint32
+    indptr : (n + 1,) int64
+    indices : (m,) int32
         Neighbours, ascending in each row.
     data : (m,) float64
         Length or area of the wall.
@@ -47,12 +54,12 @@ class Adjacency:
         self._seeds = seeds
 
     @property
-    def indptr(self) -> NDArray[np.uint64]:
-        return self._core.indptr  # type: ignore[no-any-return]
+    def indptr(self) -> NDArray[np.int64]:
+        return _signed(self._core.indptr)  # type: ignore[no-any-return]
 
     @property
-    def indices(self) -> Indices:
-        return self._core.indices  # type: ignore[no-any-return]
+    def indices(self) -> NDArray[np.int32]:
+        return _signed(self._core.indices)  # type: ignore[no-any-return]
 
     @property
     def data(self) -> Reals:
@@ -70,7 +77,7 @@ class Adjacency:
     def asymmetric(self) -> tuple[int, int]:
         return self._core.asymmetric  # type: ignore[no-any-return]
 
-    def neighbors(self, seed: int) -> Indices:
+    def neighbors(self, seed: int) -> NDArray[np.int32]:
         """The neighbours of one seed, or of a selected seed by its place in the selection."""
         if not 0 <= seed < len(self.indptr) - 1:
             raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
@@ -98,8 +105,8 @@ class BoundaryWalls:
 
     Attributes
     ----------
-    indptr : (n + 1,) uint64
-    indices : (m,) uint32
+    indptr : (n + 1,) int64
+    indices : (m,) int32
         Facets, ascending in each row. In a box of space 0 to 5 are -x +x -y +y -z +z, in one of the plane 0 to 3
         are -y +x +y -x; of a solid they are its triangles.
     data : (m,) float64
@@ -110,12 +117,12 @@ class BoundaryWalls:
         self._core = core
 
     @property
-    def indptr(self) -> NDArray[np.uint64]:
-        return self._core.indptr  # type: ignore[no-any-return]
+    def indptr(self) -> NDArray[np.int64]:
+        return _signed(self._core.indptr)  # type: ignore[no-any-return]
 
     @property
-    def indices(self) -> Indices:
-        return self._core.indices  # type: ignore[no-any-return]
+    def indices(self) -> NDArray[np.int32]:
+        return _signed(self._core.indices)  # type: ignore[no-any-return]
 
     @property
     def data(self) -> Reals:

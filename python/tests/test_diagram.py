@@ -75,7 +75,7 @@ def test_results_are_read_only_views_that_outlive_the_seeds(square):
     diagram.set_weights([0.1, 0])
     assert mass.tolist() == [0.5, 0.5]
     assert diagram.mass.round(12).tolist() == [0.6, 0.4]
-    diagram.set_seeds([[0.5, 0.5]])
+    diagram.set_seeds([[0.5, 0.5]], [0])
     assert diagram.mass.tolist() == [1.0] and mass.tolist() == [0.5, 0.5]
     del diagram
     gc.collect()

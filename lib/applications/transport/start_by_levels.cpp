@@ -142,8 +142,20 @@ void try_by_levels(SolveContext& context, Iterate& best) {
   // Equal masses, which take fewer steps than those that differ by orders.
   const Vector mass = Vector::Constant(context.target().size(), context.target().mean());
   const SeedClusters clusters(positions, mass, evaluator.dimension());
-  Vector weights = Levels(context, evaluator).solve(clusters);
-  evaluator.diagram().set_seeds({domain.dimension(), evaluator.positions(), {}});
+  // Levels have seeds of their own in the diagram.
+  const auto restore = [&] {
+    const Vector& last = evaluator.last_weights();
+    evaluator.diagram().set_seeds(
+        {domain.dimension(), evaluator.positions(), {last.data(), evaluator.size()}});
+  };
+  Vector weights;
+  try {
+    weights = Levels(context, evaluator).solve(clusters);
+  } catch (...) {
+    restore();
+    throw;
+  }
+  restore();
   if (weights.size() > 0 && weights.allFinite()) {
     Iterate found = evaluator.evaluate(std::move(weights));
     if (found.is_better(best, context.target())) best = std::move(found);

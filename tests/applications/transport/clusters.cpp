@@ -100,6 +100,35 @@ TEST_CASE("clusters on surfaces and in polygons and solids with holes") {
   }
 }
 
+TEST_CASE("a solve that is interrupted while it solves for clusters can be repeated") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  SeedArray seeds = empty_seeds(2);
+  for (int k = 0; k < 8; ++k) add_cluster(seeds, random_place(2, random), 1e-4, 30, random);
+  const TransportResult expected =
+      transport(transport_device(), unit_box(2), seeds.view(), {}, transport_options());
+  REQUIRE(expected.converged);
+  for (int last = 1; last < 12; ++last) {
+    int calls = 0;
+    bool enough = false;
+    TransportOptions options = transport_options();
+    options.progress = [&](const TransportStep&) { return enough || ++calls < last; };
+    TransportSolver solver(transport_device(), unit_box(2), options);
+    solver.set_seeds(seeds.view());
+    bool interrupted = false;
+    try {
+      solver.solve();
+    } catch (const Error& error) {
+      interrupted = error.code() == ErrorCode::interrupted;
+    }
+    CHECK(interrupted == (calls == last));
+    enough = true;
+    CHECK(distance(solver.solve().weights, expected.weights) < 1e-15);
+    CHECK((!interrupted || solver.result().weights == expected.weights));
+    CHECK(distance(solver.diagram().measures().mass, expected.mass) < 1e-15);
+  }
+}
+
 TEST_CASE("fifty mixtures of clusters of random sizes, widths and shapes") {
   INFO(replay_hint());
   Random random(test_seed());

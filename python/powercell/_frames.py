@@ -1,0 +1,45 @@
+"""Seeds from the tables of pandas and GeoPandas, which are not imported for that."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._shapes import require_same_crs
+
+
+def points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
+    """The points of a table or of geometries; other positions as they are. Columns x, y, z go by their names."""
+    geometry = getattr(positions, "geometry", None)
+    if geometry is not None and hasattr(geometry, "x"):
+        require_same_crs(positions, crs)
+        return np.column_stack([geometry.x, geometry.y])
+    if not hasattr(positions, "columns"):
+        return positions  # type: ignore[no-any-return]
+    names = [str(name).strip().lower() for name in positions.columns]
+    axes = list("xyz"[:dimension])
+    if not all(names.count(axis) == 1 for axis in axes):
+        return positions  # type: ignore[no-any-return]
+    if len(names) > dimension:
+        chosen = [positions.columns[names.index(axis)] for axis in axes]
+        raise ValueError(f"positions has the columns {list(positions.columns)}; pass table[{chosen}]")
+    return positions.iloc[:, [names.index(axis) for axis in axes]]  # type: ignore[no-any-return]
+
+
+def values_of(values: Any, positions: Any, name: str) -> Any:
+    """Values for the rows of `positions`: a column by its name, or a series by its labels; others as they are."""
+    if isinstance(values, str):
+        if not hasattr(positions, "columns"):
+            raise ValueError(f"{name} is {values!r}: only of a table, as of GeoPandas, it may be the name of a column")
+        if values not in positions.columns:
+            raise ValueError(f"{name} is {values!r}; the columns are {list(positions.columns)}")
+        return positions[values]
+    labels: Any = getattr(values, "index", None)
+    rows: Any = getattr(positions, "index", None)
+    if not hasattr(labels, "equals") or not hasattr(rows, "equals") or labels.equals(rows):
+        return values
+    if not (labels.is_unique and rows.is_unique and len(labels) == len(rows) and rows.isin(labels).all()):
+        raise ValueError(f"{name} has other labels than positions; pass {name}.to_numpy() if they are in the same order")
+    return values.reindex(rows)
