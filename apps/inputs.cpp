@@ -288,11 +288,13 @@ io::LoadedDomain read_plane_domain(const InputArguments& arguments, const std::s
 void note_hidden(Inputs& inputs, const RunReport& report) {
   const std::vector<double>& weights = inputs.seeds.weights;
   if (2 * report.hidden <= report.seeds || weights.empty()) return;
+  const double share = range(weights) / squared_spacing(inputs);
+  if (!(share > 1)) return;  // seeds outside the domain have no cells either
   inputs.notes.push_back(fmt::format(
       "weights: {} of {} seeds are hidden, as the range of the weights is {:.2g} times the squared mean "
       "distance of the seeds; a weight is a length squared, r * r for a radius r (--scale-weights auto "
       "brings the range to a quarter of that distance squared)",
-      with_commas(report.hidden), with_commas(report.seeds), range(weights) / squared_spacing(inputs)));
+      with_commas(report.hidden), with_commas(report.seeds), share));
 }
 
 void describe_inputs(const Inputs& inputs, RunReport& report) {

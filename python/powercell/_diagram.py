@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Optional, Union
@@ -14,28 +13,12 @@ from . import _core, _looks
 from ._arrays import Indices, Reals, indices, optional_reals, reals
 from ._device import Device, DeviceLike, open_device
 from ._domain import Domain
-from ._frames import points_of, values_of
+from ._frames import checked_seeds
+from ._names import unknown_result
 from ._options import diagram_options
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
 from ._progress import Progress, fraction_bar, progress_function
 from ._results import Adjacency, BoundaryWalls, Status
-
-# What results are called elsewhere.
-_OTHER_NAMES = {
-    "area": "mass",
-    "areas": "mass",
-    "volume": "mass",
-    "volumes": "mass",
-    "measure": "mass",
-    "measures": "mass",
-    "centroids": "centroid",
-    "neighbours": "neighbors",
-    "points": "positions",
-    "ridge_points": "adjacency",
-    "regions": "cells",
-    "vertices": "cells",
-    "radii": "weights",
-}
 
 
 class Diagram:
@@ -143,29 +126,9 @@ class Diagram:
         self.domain = domain
         progress_function(progress)  # refuses what is none
         self._progress = progress
-        self._columns: Optional[Any] = None
-        checked = self._checked(positions, weights, radii)
+        points, given, self._columns = checked_seeds(domain, positions, weights, radii)
         self._core: Any = _core.Diagram(open_device(device), domain._core, options)
-        self._set(*checked)
-
-    def _checked(
-        self, positions: ArrayLike, weights: Optional[ArrayLike], radii: Optional[ArrayLike] = None
-    ) -> tuple[Reals, Optional[Reals]]:
-        d = self.domain.dimension
-        where = "in the plane" if d == 2 else "in space"
-        given = points_of(positions, d, self.domain.crs)
-        points = reals(given, "positions", (None, d), f", since the domain is {where}")
-        if given is not positions and hasattr(positions, "geometry"):  # points of GeoPandas, with their columns
-            self._columns = positions
-        if radii is not None and weights is not None:
-            raise ValueError("weights and radii are given; weights are the squares of radii: pass one of them")
-        each = ", one for each seed"
-        if radii is None:
-            return points, optional_reals(values_of(weights, positions, "weights"), "weights", (len(points),), each)
-        checked = reals(values_of(radii, positions, "radii"), "radii", (len(points),), each)
-        if (checked < 0).any():
-            raise ValueError(f"radii: row {int(np.argmax(checked < 0))} is negative")
-        return points, checked * checked
+        self._set(points, given)
 
     def _set(self, positions: Reals, weights: Optional[Reals]) -> None:
         self._core.set_seeds(positions, weights)
@@ -186,8 +149,7 @@ class Diagram:
         ValueError
             Another number of seeds without weights, where the seeds before had some.
         """
-        self._columns = None
-        points, given = self._checked(positions, weights, radii)
+        points, given, columns = checked_seeds(self.domain, positions, weights, radii)
         if given is None and self._weights is not None and self._weights.any():
             if len(points) != len(self._weights):
                 raise ValueError(
@@ -195,6 +157,7 @@ class Diagram:
                     "pass weights, or np.zeros(n) for none"
                 )
             given = self._weights
+        self._columns = columns
         self._set(points, given)
 
     def set_weights(self, weights: ArrayLike) -> None:
@@ -266,7 +229,7 @@ class Diagram:
         measures = self._core.measures()
         if not self._hidden_known:
             self._hidden_known = True
-            warn_of_hidden_seeds(measures.status)
+            warn_of_hidden_seeds(self.domain, self.weights, measures.status)
         return measures
 
     @property
@@ -457,10 +420,9 @@ class Diagram:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            known = [other for other in dir(type(self)) if other[0] != "_"]
-            close = [] if name[0] == "_" else difflib.get_close_matches(name, known, 1)
-            other = _OTHER_NAMES.get(name, close[0] if close else "")
-            raise AttributeError(f"a Diagram has no '{name}'" + (f"; did you mean '{other}'?" if other else ""))
+            if hasattr(type(self), name):  # what a property has raised
+                return object.__getattribute__(self, name)
+            raise AttributeError(unknown_result(type(self), name))
 
     def __repr__(self) -> str:
         return f"<powercell.Diagram of {len(self)} seeds in {self.domain!r}>"

@@ -7,10 +7,12 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._arrays import Reals, optional_reals, reals
+from ._domain import Domain
 from ._shapes import require_same_crs
 
 
-def points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
+def _points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
     """The points of a table or of geometries; other positions as they are. Columns x, y, z go by their names."""
     geometry = getattr(positions, "geometry", None)
     if geometry is not None and hasattr(geometry, "x"):
@@ -28,7 +30,7 @@ def points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
     return positions.iloc[:, [names.index(axis) for axis in axes]]  # type: ignore[no-any-return]
 
 
-def values_of(values: Any, positions: Any, name: str) -> Any:
+def _values_of(values: Any, positions: Any, name: str) -> Any:
     """Values for the rows of `positions`: a column by its name, or a series by its labels; others as they are."""
     if isinstance(values, str):
         if not hasattr(positions, "columns"):
@@ -43,3 +45,28 @@ def values_of(values: Any, positions: Any, name: str) -> Any:
     if not (labels.is_unique and rows.is_unique and len(labels) == len(rows) and rows.isin(labels).all()):
         raise ValueError(f"{name} has other labels than positions; pass {name}.to_numpy() if they are in the same order")
     return values.reindex(rows)
+
+
+def checked_seeds(
+    domain: Domain, positions: Any, weights: Optional[Any], radii: Optional[Any]
+) -> tuple[Reals, Optional[Reals], Optional[Any]]:
+    """Positions, weights and, of GeoPandas, the table that they are from.
+
+    Raises
+    ------
+    ValueError
+        An array of the wrong shape or type, by name; weights and radii; a negative radius.
+    """
+    d = domain.dimension
+    given = _points_of(positions, d, domain.crs)
+    points = reals(given, "positions", (None, d), f", since the domain is {'in the plane' if d == 2 else 'in space'}")
+    columns = positions if given is not positions and hasattr(positions, "geometry") else None
+    if radii is not None and weights is not None:
+        raise ValueError("weights and radii are given; weights are the squares of radii: pass one of them")
+    shape, why = (len(points),), ", one for each seed"
+    if radii is None:
+        return points, optional_reals(_values_of(weights, positions, "weights"), "weights", shape, why), columns
+    checked = reals(_values_of(radii, positions, "radii"), "radii", shape, why)
+    if (checked < 0).any():
+        raise ValueError(f"radii: row {int(np.argmax(checked < 0))} is negative")
+    return points, checked * checked, columns

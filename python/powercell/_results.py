@@ -12,11 +12,14 @@ from . import _looks
 from ._arrays import Reals
 
 
-def _signed(numbers: Any) -> Any:
-    """The same memory as signed integers, whose differences do not wrap; a copy of 64 bits where that does not fit."""
+def _signed(numbers: Any, count: int = 0) -> Any:
+    """The same memory as signed integers, whose differences do not wrap; a copy of 64 bits where that does not fit.
+
+    All numbers are below `count`, unless they have 64 bits.
+    """
     if numbers.dtype == np.uint64:
         return numbers.view(np.int64)
-    return numbers.view(np.int32) if not numbers.size or int(numbers.max()) < 2**31 else numbers.astype(np.int64)
+    return numbers.view(np.int32) if count <= 2**31 else numbers.astype(np.int64)
 
 
 class Status(enum.IntEnum):
@@ -59,7 +62,7 @@ class Adjacency:
 
     @property
     def indices(self) -> NDArray[np.int32]:
-        return _signed(self._core.indices)  # type: ignore[no-any-return]
+        return _signed(self._core.indices, self._seeds)  # type: ignore[no-any-return]
 
     @property
     def data(self) -> Reals:
@@ -115,6 +118,7 @@ class BoundaryWalls:
 
     def __init__(self, core: Any) -> None:
         self._core = core
+        self._facets = 1 + int(core.indices.max()) if core.indices.size else 0
 
     @property
     def indptr(self) -> NDArray[np.int64]:
@@ -122,7 +126,7 @@ class BoundaryWalls:
 
     @property
     def indices(self) -> NDArray[np.int32]:
-        return _signed(self._core.indices)  # type: ignore[no-any-return]
+        return _signed(self._core.indices, self._facets)  # type: ignore[no-any-return]
 
     @property
     def data(self) -> Reals:

@@ -32,6 +32,8 @@ def test_most_seeds_hidden_is_warned_of_once():
         assert diagram.mass.sum() == pytest.approx(1)
         assert pc.Diagram(SQUARE, POINTS, WEIGHTS).mass.sum() == pytest.approx(1)
         assert pc.Diagram(SQUARE, np.repeat(POINTS, 3, axis=0)).mass.sum() == pytest.approx(1)  # duplicates
+        far = np.concatenate([POINTS[:5], 5 + POINTS])  # outside, not hidden by weights
+        assert np.count_nonzero(pc.Diagram(SQUARE, far, 1e-4 * np.arange(45)).status == pc.Status.HIDDEN) > 25
     diagram.set_weights(2 * radii)
     with pytest.warns(pc.HiddenSeedsWarning):
         diagram.mass

@@ -134,10 +134,11 @@ void try_into_box(Evaluator& evaluator, const Vector& target, Iterate& best) {
   std::span<const double> given = evaluator.positions();
   if (evaluator.domain().is_periodic() && evaluator.in_one_place() != nullptr) {
     given = positions = gathered(evaluator.domain(), given);
+    low.assign(given.begin(), given.begin() + static_cast<std::ptrdiff_t>(low.size()));
+    high = low;
     for (std::size_t k = 0; k < given.size(); ++k) {
-      const std::size_t c = k % low.size();
-      low[c] = std::min(k < low.size() ? given[k] : low[c], given[k]);
-      high[c] = std::max(k < low.size() ? given[k] : high[c], given[k]);
+      low[k % low.size()] = std::min(low[k % low.size()], given[k]);
+      high[k % low.size()] = std::max(high[k % low.size()], given[k]);
     }
   }
   const Move move = into_box(evaluator.domain(), low, high);
