@@ -8,7 +8,7 @@
 #define PIECE_FLAT 2    /* touches the region only: walls count, measures do not */
 #define PIECE_MORE 3    /* the neighbour list ended before the stopping rule held */
 #define PIECE_FULL 4    /* does not fit this variant's capacity */
-#define PIECE_TANGLED 5 /* rounding made the cut topologically impossible */
+#define PIECE_TANGLED 5 /* for the host: rounding made a cut impossible, or too many seeds come near */
 /* Added to one of the first three: rounding may have decided (docs/mathematics.md, "Certain decisions"). */
 #define PIECE_UNCERTAIN 8
 

@@ -9,6 +9,12 @@
 /* After so many nodes, the next are tested by the vertices of the cell too. White noise visits some 20. */
 #define VISITS_MOST 48
 
+/* After so many nodes, or bisectors that cut nothing, a cell is left to the host: most seeds are about as far
+   from one of its vertices, as those of a circle are from its centre, and boxes exclude few of them
+   (docs/mathematics.md (86b)). */
+#define VISITS_LIMIT 1024
+#define MISSES_LIMIT 512
+
 /* Cells start no nearer than this: products of four lengths are in the range of numbers. */
 #define LEAST_EXTENT ((real)1e-7)
 
@@ -90,8 +96,9 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   const near_t near = near_to(tree, blocks, i / TREE_FAN);
   find_box(&cell->at);
   push_root(&stack, tree);
-  for (int visits = 0; stack.depth > 0; ++visits) {
+  for (int visits = 0, misses = 0; stack.depth > 0; ++visits) {
     const bool close = visits >= VISITS_MOST;
+    if (visits >= VISITS_LIMIT || misses >= MISSES_LIMIT) return CUT_TANGLED;
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
     if (level > 0) {
@@ -100,7 +107,7 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
     }
     uint left = (1u << min(TREE_FAN, tree.count - node * TREE_FAN)) - 1;
     if (node == i / TREE_FAN) left &= ~(1u << i % TREE_FAN);
-    const int cut = cut_by_leaf(cell, blocks, node, left, close);
+    const int cut = cut_by_leaf(cell, blocks, node, left, close, &misses);
     if (cut > CUT_SHRUNK) return cut;
   }
   return CUT_NONE;

@@ -123,7 +123,7 @@ bool ExactCell::lies_in(const ExactVertex& vertex, std::int32_t border) {
                  });
 }
 
-std::array<double, 3> ExactCell::place(const ExactVertex& vertex) {
+ClosePoint ExactCell::place(const ExactVertex& vertex) {
   if (scene_->mesh->dimension == 2)
     return with<0>(std::array{vertex[0], vertex[1]}, [](const auto& planes, const auto& a, const auto& b) {
       return meeting_in_plane(a, b, planes.exponent());

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "lib/base/two_doubles.hpp"
+
 namespace powercell {
 
 struct HostScene;
@@ -15,24 +17,30 @@ struct HostScene;
 /// ~facet of the region. Polygons and surfaces have two, volumes three.
 using ExactVertex = std::array<std::int32_t, 3>;
 
+/// A point relative to a seed.
+using ClosePoint = std::array<TwoDoubles, 3>;
+
 /// Exact predicates in integers that are as short as the seeds allow. Ties are broken by simulation of
 /// simplicity: the weight of each seed counts as larger by an infinitesimal, which is infinitely larger than
 /// those of all higher ranks. So all cells decide alike, whatever the order in which the seeds were given
 /// (docs/mathematics.md (86)).
 class ExactCell {
  public:
+  static constexpr double place_error = 2 * TwoDoubles::rounding;
+
   explicit ExactCell(const HostScene& scene);
   ~ExactCell();
   ExactCell(ExactCell&&) noexcept;
 
   /// From now on all decisions are about the cell of seed `rank` in `region`.
   void start(std::uint32_t rank, std::uint32_t region);
-  /// Whether any side since start() was decided by the infinitesimals.
+  /// Whether any side since start(), or since it was set, was decided by the infinitesimals.
   bool met_tie() const { return met_tie_; }
+  void set_met_tie(bool met) { met_tie_ = met; }
   /// Whether the vertex is beyond the bisector with seed `other`; false if that is one of its planes.
   bool is_outside(const ExactVertex& vertex, std::int32_t other);
-  /// The vertex relative to the seed; each coordinate has a relative error of a few rounding units.
-  std::array<double, 3> place(const ExactVertex& vertex);
+  /// The vertex relative to the seed; each coordinate has a relative error of place_error at most.
+  ClosePoint place(const ExactVertex& vertex);
   /// Whether the vertex without the infinitesimals lies in the plane of `border`.
   bool lies_in(const ExactVertex& vertex, std::int32_t border);
   /// Whether the planes of `a` and `b` meet that of `face` in parallel lines; in polygons `face` is not used.

@@ -18,11 +18,6 @@ namespace mp = boost::multiprecision;
 /// Bits kept free below the lowest met, so that a seed with one more does not change the unit.
 constexpr int spare_bits = 6;
 
-ExactDifference exact_difference(double a, double b) {
-  const double d = a - b, v = d - a;
-  return {d, (a - (d - v)) - (b + v)};
-}
-
 /// x = mantissa 2^low, the mantissa odd or 0.
 struct Parts {
   std::int64_t mantissa;
@@ -40,11 +35,11 @@ Parts parts_of(double x) {
 }
 
 /// Exponent of the lowest bit that is set; large for 0.
-int lowest_bit_of(const ExactDifference& x) {
+int lowest_bit_of(const TwoDoubles& x) {
   return parts_of(x.low != 0 ? x.low : x.high).low;
 }
 /// |x| < 2^this.
-int highest_bit_of(const ExactDifference& x) {
+int highest_bit_of(const TwoDoubles& x) {
   if (x.high == 0) return INT_MIN / 2;
   return std::max(static_cast<int>(std::bit_cast<std::uint64_t>(x.high) >> 52 & 0x7FF), 1) - 1022;
 }
@@ -73,7 +68,7 @@ void assign(Unbounded& to, double x, int exponent) {
   if (parts.mantissa != 0) to <<= static_cast<unsigned>(parts.low - exponent);
 }
 template <class Int>
-Int integer(const ExactDifference& x, int exponent) {
+Int integer(const TwoDoubles& x, int exponent) {
   Int high, low;
   assign(high, x.high, exponent);
   if (x.low == 0) return high;
@@ -107,14 +102,14 @@ bool convert(const Unbounded& x, Unbounded& to) {
 }
 
 template <int n, int m>
-void offset_of(const Wide<m>& square, const ExactDifference& weight, int exponent, Wide<n>& offset) {
+void offset_of(const Wide<m>& square, const TwoDoubles& weight, int exponent, Wide<n>& offset) {
   offset = square.template resized<n>() + integer<Wide<n>>(weight, exponent);
 }
-void offset_of(const Unbounded& square, const ExactDifference& weight, int exponent, Unbounded& offset) {
+void offset_of(const Unbounded& square, const TwoDoubles& weight, int exponent, Unbounded& offset) {
   offset = square + integer<Unbounded>(weight, exponent);
 }
 
-using ExactPoint = std::array<ExactDifference, 3>;
+using ExactPoint = std::array<TwoDoubles, 3>;
 using Vector = std::array<Unbounded, 3>;
 
 Vector operator-(const Vector& a, const Vector& b) {
@@ -175,7 +170,7 @@ bool ExactPlanes<Row>::make_short_bisector(std::int32_t other, Row& row) const {
                                 there = scene_->points[static_cast<std::size_t>(other)];
     if (!any_ || scale_ == 0 || here[3] != there[3]) return false;
     for (std::size_t k = 0; k < 3; ++k) {
-      const ExactDifference q = exact_difference(there[k], here[k]);
+      const TwoDoubles q = exact_difference(there[k], here[k]);
       const double x = q.high * scale_;
       if (q.low != 0 || !(std::abs(x) <= 0x1p61)) return false;
       const auto n = static_cast<std::int64_t>(x);
@@ -201,7 +196,7 @@ bool ExactPlanes<Row>::make_bisector(std::int32_t other, Row& row) {
     low = std::min(low, lowest_bit_of(q[k]));
     high = std::max(high, highest_bit_of(q[k]));
   }
-  const ExactDifference weight = exact_difference(here[3], there[3]);
+  const TwoDoubles weight = exact_difference(here[3], there[3]);
   if (weight.high != 0) low = std::min(low, lowest_bit_of(weight) >> 1);
   if (!cover(low, high)) return false;
   if (weight.high != 0 && highest_bit_of(weight) - 2 * exponent_ > Limits<Row>::weight) return false;
@@ -299,7 +294,7 @@ int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner
                               there = scene.points[static_cast<std::size_t>(other)],
                               at = scene.corners[corner];
   const auto d = static_cast<std::size_t>(scene.mesh->dimension);
-  const ExactDifference weight = exact_difference(here[3], there[3]);
+  const TwoDoubles weight = exact_difference(here[3], there[3]);
   ExactPoint q{}, y{};
   int unit = weight.high != 0 ? lowest_bit_of(weight) >> 1 : INT_MAX / 2;
   for (std::size_t k = 0; k < d; ++k) {

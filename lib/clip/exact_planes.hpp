@@ -16,11 +16,6 @@ struct RegionMesh;
 /// What stands for the plane of a surface's triangle among facets and seeds.
 constexpr std::int32_t ground_border = INT32_MIN;
 
-/// a - b without error, high the nearest double.
-struct ExactDifference {
-  double high = 0, low = 0;
-};
-
 /// Of one seed and region, in units of 2^exponent() (offsets: of its square): exact, as long as the numbers
 /// met fit rows of this kind. The unit follows the seeds met, so that close together short integers do.
 template <class Row>

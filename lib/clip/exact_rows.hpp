@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "lib/clip/exact_cell.hpp"
 #include "lib/clip/wide.hpp"
 
 namespace powercell {
@@ -24,13 +25,13 @@ inline int sign_of(const Unbounded& x) {
 }
 
 inline Scaled scaled(const Unbounded& x) {
-  if (x.sign() == 0) return {0, 0};
+  if (x.sign() == 0) return {};
   const Unbounded size = x.sign() < 0 ? Unbounded(-x) : x;
-  const int exponent = static_cast<int>(boost::multiprecision::msb(size)) - 63;
-  const Unbounded top = exponent > 0 ? Unbounded(size >> static_cast<unsigned>(exponent))
-                                     : Unbounded(size << static_cast<unsigned>(-exponent));
-  const auto fraction = static_cast<long double>(static_cast<std::uint64_t>(top));
-  return {x.sign() < 0 ? -fraction : fraction, exponent};
+  const int exponent = static_cast<int>(boost::multiprecision::msb(size)) - 127;
+  const Unbounded leading = exponent > 0 ? Unbounded(size >> static_cast<unsigned>(exponent))
+                                         : Unbounded(size << static_cast<unsigned>(-exponent));
+  const auto next = static_cast<std::uint64_t>(Unbounded(leading & ~std::uint64_t{0}));
+  return scaled_by(static_cast<std::uint64_t>(Unbounded(leading >> 64)), next, exponent + 64, x.sign() < 0);
 }
 
 /// The plane n.y = offset / 2, offset = |q|^2 + w_i - w_j and n = q for a bisector.
@@ -98,28 +99,31 @@ inline int determinant_sign(const Row& a, const Row& b, const Row& p, const std:
 
 /// x / y 2^exponent.
 template <class X, class Y>
-inline double quotient(const X& x, const Y& y, int exponent) {
+inline TwoDoubles quotient(const X& x, const Y& y, int exponent) {
   const Scaled a = scaled(x), b = scaled(y);
-  if (a.fraction == 0) return 0;
-  return static_cast<double>(std::ldexp(a.fraction / b.fraction, a.exponent - b.exponent + exponent));
+  if (a.fraction.high == 0) return {};
+  const TwoDoubles ratio = a.fraction / b.fraction;
+  const int shift = a.exponent - b.exponent + exponent;
+  return {std::ldexp(ratio.high, shift), std::ldexp(ratio.low, shift)};
 }
 
 /// Where the planes meet, in units of 2^exponent.
 template <class Row>
-inline std::array<double, 3> meeting_in_space(const Row& a, const Row& b, const Row& c, int exponent) {
+inline ClosePoint meeting_in_space(const Row& a, const Row& b, const Row& c, int exponent) {
   const auto bc = cross_of(b.normal, c.normal), ca = cross_of(c.normal, a.normal),
              ab = cross_of(a.normal, b.normal);
   const auto d = dot_of(a.normal, bc);
-  std::array<double, 3> y;
+  ClosePoint y;
   for (std::size_t k = 0; k < 3; ++k)
     y[k] = quotient(a.offset * bc[k] + b.offset * ca[k] + c.offset * ab[k], d, exponent - 1);
   return y;
 }
 template <class Row>
-inline std::array<double, 3> meeting_in_plane(const Row& a, const Row& b, int exponent) {
+inline ClosePoint meeting_in_plane(const Row& a, const Row& b, int exponent) {
   const auto d = a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
   return {quotient(a.offset * b.normal[1] - b.offset * a.normal[1], d, exponent - 1),
-          quotient(b.offset * a.normal[0] - a.offset * b.normal[0], d, exponent - 1), 0};
+          quotient(b.offset * a.normal[0] - a.offset * b.normal[0], d, exponent - 1),
+          {}};
 }
 
 /// Rows by what lies behind them (PieceBatch::border), found quickly.

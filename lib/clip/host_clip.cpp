@@ -1,6 +1,8 @@
 #include "lib/clip/host_clip.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,6 +10,7 @@
 #include "lib/clip/host_polyhedron.hpp"
 #include "lib/clip/host_search.hpp"
 #include "lib/clip/host_walls.hpp"
+#include "lib/clip/vertex_search.hpp"
 
 namespace powercell {
 namespace {
@@ -17,7 +20,13 @@ template <class Cell>
 class PieceClipper final : public HostClipper {
  public:
   PieceClipper(const HostScene& scene, bool geometry, bool perturbed)
-      : scene_(scene), geometry_(geometry), perturbed_(perturbed), exact_(scene), search_(scene) {}
+      : scene_(scene),
+        geometry_(geometry),
+        perturbed_(perturbed),
+        exact_(scene),
+        search_(scene),
+        vertex_search_(scene),
+        close_search_(scene) {}
 
   bool met_tie() const override { return exact_.met_tie(); }
 
@@ -86,7 +95,13 @@ class PieceClipper final : public HostClipper {
     region_.corner_error = 2 * rounding_unit * reach;
     cell_.start(region_);
     find_radius();
+    exact_decisions_ = 0;
   }
+
+  /// After so many exact decisions about a cell, vertices are placed exactly first: most decisions that
+  /// follow need no other.
+  static constexpr int exact_most = 48;
+  static constexpr std::size_t doubtful_most = 12;
 
   /// False if nothing is left.
   bool cut_by_all() {
@@ -97,41 +112,166 @@ class PieceClipper final : public HostClipper {
     };
     while (const auto other = search_.next(radius_, vertices))
       if (!cut_by(*other)) return false;
+    return search_.gave_up() ? cut_by_vertices() : true;
+  }
+
+  /// The same by a search for each vertex. Each seed found cuts the cell, so it ends with vertices that no
+  /// seed takes. What was found on the way depends on earlier cells: nothing of the result may.
+  bool cut_by_vertices() {
+    vertex_search_.start(rank_);
+    close_search_.start(rank_);
+    open_.resize(cell_.size());
+    std::iota(open_.begin(), open_.end(), 0U);
+    side_.assign(cell_.size(), 0);
+    bool tied = false;
+    while (!open_.empty()) {
+      const std::uint32_t v = open_.back();
+      open_.pop_back();
+      if (v >= cell_.size() || cell_.vertex(v).is_verified) continue;
+      exact_.set_met_tie(false);
+      const std::optional<std::uint32_t> other = find_cutter(v);
+      if (!other) {
+        cell_.set_verified(v);
+        tied = tied || exact_.met_tie();
+        continue;
+      }
+      const Cutter cutter = cutter_of(*other);
+      find_outside_from(v, cutter);
+      if (outside_.size() == cell_.size()) {
+        exact_.set_met_tie(true);  // there may have been one, on another way
+        return false;
+      }
+      cut(cutter);
+      open_.insert(open_.end(), cell_.changed().begin(), cell_.changed().end());
+    }
+    exact_.set_met_tie(tied);
+    cell_.sort_faces([this](std::int32_t a, std::int32_t b) {
+      return a < 0 || b < 0 ? a < b : place_in_order(a) < place_in_order(b);
+    });
+    find_radius();
     return true;
+  }
+
+  /// The order of bisectors, the same whatever ranks the seeds have.
+  std::array<double, 4> place_in_order(std::int32_t other) const {
+    const Point q = position(scene_.points[static_cast<std::size_t>(other)]) - position(scene_.points[rank_]);
+    return {dot(q, q), q[0], q[1], q[2]};
+  }
+
+  /// A seed that the vertex belongs to rather than to the cell's own. Where more than a few may be as near to
+  /// rounding, they are searched for again with more digits, and what that leaves open is decided exactly.
+  std::optional<std::uint32_t> find_cutter(std::uint32_t v) {
+    sharpen(v);
+    const HostPoint& vertex = cell_.vertex(v);
+    const ExactVertex borders = cell_.borders(v);
+    const std::size_t most = is_on_bisector(borders) ? doubtful_most : scene_.points.size();
+    if (const auto other = vertex_search_.find(vertex.at, vertex.error, most)) return other;
+    if (vertex_search_.doubtful().size() <= most) return find_exactly(borders, vertex_search_.doubtful());
+    const ClosePoint place = exact_.place(borders);
+    const double error = ExactCell::place_error * sum_of_sizes(vertex.at);
+    if (const auto other = close_search_.find(place, error, scene_.points.size())) return other;
+    return find_exactly(borders, close_search_.doubtful());
+  }
+
+  std::optional<std::uint32_t> find_exactly(const ExactVertex& borders,
+                                            const std::vector<std::uint32_t>& others) {
+    const auto found = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
+      return exact_.is_outside(borders, static_cast<std::int32_t>(other));
+    });
+    return found == others.end() ? std::nullopt : std::optional(*found);
+  }
+
+  static bool is_on_bisector(const ExactVertex& borders) {
+    return std::any_of(borders.begin(), borders.begin() + Cell::dimension,
+                       [](std::int32_t border) { return border >= 0; });
+  }
+
+  struct Cutter {
+    std::int32_t border;
+    Bisector bisector;
+    double rounding, size, offset;
+  };
+
+  Cutter cutter_of(std::uint32_t other) const {
+    const std::array<double, 4>&here = scene_.points[rank_], &there = scene_.points[other];
+    const Point q = position(there) - position(here);
+    const Bisector bisector{q, dot(q, q), here[3] - there[3]};
+    return {static_cast<std::int32_t>(other), bisector, bisector.rounding(radius_), 2 * sum_of_sizes(q),
+            bisector.offset()};
+  }
+
+  /// Above 0 if the vertex is outside, below 0 if inside, 0 if the errors leave that open.
+  int side_by_numbers(std::size_t v, const Cutter& cutter) const {
+    const HostPoint& p = cell_.vertex(v);
+    const double side = 2 * dot(cutter.bisector.q, p.at) - cutter.offset,
+                 error = cutter.rounding + cutter.size * p.error;
+    const int is_outside = side > error, is_inside = side < -error;
+    return is_outside - is_inside;
+  }
+
+  bool is_outside_exactly(std::size_t v, const Cutter& cutter) {
+    if (++exact_decisions_ > exact_most) {
+      sharpen(v);
+      if (const int side = side_by_numbers(v, cutter)) return side > 0;
+    }
+    return exact_.is_outside(cell_.borders(v), cutter.border);
+  }
+
+  /// Corners of the region are sharp.
+  void sharpen(std::size_t v) {
+    const HostPoint& p = cell_.vertex(v);
+    if (p.error <= 8 * rounding_unit * sum_of_sizes(p.at)) return;
+    if (is_on_bisector(cell_.borders(v))) cell_.sharpen(v, {exact_, radius_, false});
   }
 
   /// Cuts the cell by the bisector with a seed. No vertex is on it: where the errors leave a side open, it is
   /// decided exactly. False if nothing is left.
   bool cut_by(std::uint32_t other) {
-    const std::array<double, 4>&here = scene_.points[rank_], &there = scene_.points[other];
-    const Point q = position(there) - position(here);
-    const Bisector bisector{q, dot(q, q), here[3] - there[3]};
-    const double rounding = bisector.rounding(radius_), size = 2 * sum_of_sizes(q),
-                 offset = bisector.offset();
+    const Cutter cutter = cutter_of(other);
     const std::size_t count = cell_.size();
-    std::size_t inside = 0, outside = 0;
+    bool any = false;
     side_.resize(count);
+    outside_.clear();
     for (std::size_t v = 0; v < count; ++v) {
-      const HostPoint& p = cell_.vertex(v);
-      const double side = 2 * dot(q, p.at) - offset, error = rounding + size * p.error;
-      const int is_outside = side > error, is_inside = side < -error;
-      side_[v] = is_outside - is_inside;
-      inside += is_inside;
+      side_[v] = static_cast<std::int8_t>(side_by_numbers(v, cutter));
+      any = any || side_[v] >= 0;
     }
-    if (inside == count) return true;
-    const auto border = static_cast<std::int32_t>(other);
-    for (std::size_t v = 0; v < count; ++v) {
-      if (side_[v] == 0) side_[v] = exact_.is_outside(cell_.borders(v), border) ? 1 : -1;
-      outside += side_[v] > 0;
-    }
-    if (outside == 0) return true;
-    if (outside == count) return false;
-    if (!cell_.cut(side_, {border, plane_of(bisector)}, {exact_, radius_, false}))
-      throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank_) +
-                                           " of the Hilbert order could not be clipped without contradiction "
-                                           "even on the host; please report the input");
+    if (!any) return true;
+    for (std::size_t v = 0; v < count; ++v)
+      if (side_[v] > 0 || (side_[v] == 0 && is_outside_exactly(v, cutter)))
+        outside_.push_back(static_cast<std::uint32_t>(v));
+    if (outside_.empty()) return true;
+    if (outside_.size() == count) return false;
+    cut(cutter);
     find_radius();
     return true;
+  }
+
+  /// Lists the vertices outside, which are connected, starting from one of them.
+  void find_outside_from(std::uint32_t first, const Cutter& cutter) {
+    side_.resize(cell_.size(), 0);
+    outside_.assign(1, first);
+    inside_.clear();
+    side_[first] = 1;
+    for (std::size_t k = 0; k < outside_.size(); ++k)
+      cell_.for_neighbors(outside_[k], [&](std::uint32_t u) {
+        if (side_[u] != 0) return;
+        int side = side_by_numbers(u, cutter);
+        if (side == 0) side = is_outside_exactly(u, cutter) ? 1 : -1;
+        side_[u] = static_cast<std::int8_t>(side);
+        (side > 0 ? outside_ : inside_).push_back(u);
+      });
+    for (const std::uint32_t v : outside_) side_[v] = 0;
+    for (const std::uint32_t v : inside_) side_[v] = 0;
+    std::sort(outside_.begin(), outside_.end());
+  }
+
+  /// Cuts off `outside_`.
+  void cut(const Cutter& cutter) {
+    if (cell_.cut(outside_, {cutter.border, plane_of(cutter.bisector)}, {exact_, radius_, false})) return;
+    throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank_) +
+                                         " of the Hilbert order could not be clipped without contradiction "
+                                         "even on the host; please report the input");
   }
 
   void find_radius() {
@@ -160,11 +300,16 @@ class PieceClipper final : public HostClipper {
   const bool geometry_, perturbed_;
   ExactCell exact_;
   HostSearch search_;
+  VertexSearch<double> vertex_search_;
+  VertexSearch<TwoDoubles> close_search_;
   Cell cell_;
   HostRegion region_;
   std::uint32_t rank_ = 0, region_number_ = 0;
   double radius_ = 0;  ///< no vertex is farther from the seed
-  std::vector<double> side_;
+  int exact_decisions_ = 0;
+  std::vector<std::int8_t> side_;
+  std::vector<std::uint32_t> outside_, inside_;
+  std::vector<std::uint32_t> open_;  ///< vertices that may not be verified, or not be there any more
 };
 
 std::vector<std::array<double, 4>> pack(const Frame& frame, int dimension, std::span<const double> positions,

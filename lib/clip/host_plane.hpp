@@ -29,7 +29,8 @@ inline Point position(const std::array<double, 4>& point) {
 
 struct HostPoint {
   Point at{};
-  double error = 0;  ///< at least the distance from the true point
+  double error = 0;          ///< at least the distance from the true point
+  bool is_verified = false;  ///< of a vertex: no seed is nearer than the cell's own
 };
 
 /// normal.y = offset with a normal of length 1.
@@ -121,9 +122,12 @@ struct HostPlacer {
     HostPoint p = meeting_point({}, a, b, c, radius);
     if (is_final && p.error >= 0) p = meeting_point(p.at, a, b, c, radius);
     if (p.error >= 0 && p.error <= (is_final ? final_error : passing_error) * radius) return p;
-    p.at = exact.place(borders);
-    p.error = 4 * rounding_unit * sum_of_sizes(p.at);
-    return p;
+    return exactly(borders);
+  }
+  HostPoint exactly(const ExactVertex& borders) const {
+    const ClosePoint close = exact.place(borders);
+    const Point at{close[0].high, close[1].high, close[2].high};
+    return {at, 4 * rounding_unit * sum_of_sizes(at)};
   }
 };
 

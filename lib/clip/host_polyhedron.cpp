@@ -1,5 +1,7 @@
 #include "lib/clip/host_polyhedron.hpp"
 
+#include <utility>
+
 namespace powercell {
 
 void HostPolyhedron::start(const HostRegion& region) {
@@ -8,6 +10,8 @@ void HostPolyhedron::start(const HostRegion& region) {
   points_.clear();
   links_.assign(y.size(), {});
   faces_.clear();
+  mark_.clear();
+  is_outside_.clear();
   facets_.assign(static_cast<std::size_t>(shape.faces), {});
   for (std::size_t v = 0; v < y.size(); ++v)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -28,18 +32,18 @@ HostPoint HostPolyhedron::place_vertex(const HostPlacer& place, const Links& fac
   return place({a.border, b.border, c.border}, a.plane, b.plane, c.plane);
 }
 
-/// Lists the vertices outside and the edges that lead from them to vertices inside.
-void HostPolyhedron::find_crossings(const std::vector<double>& side) {
-  outside_.clear();
+/// Lists the edges that lead from vertices outside to vertices inside.
+void HostPolyhedron::find_crossings(std::span<const std::uint32_t> outside) {
+  is_outside_.resize(size(), 0);
   crossings_.clear();
-  for (std::uint32_t v = 0; v < side.size(); ++v) {
-    if (side[v] < 0) continue;
-    outside_.push_back(v);
+  for (const std::uint32_t v : outside) is_outside_[v] = 1;
+  for (const std::uint32_t v : outside) {
     const auto& [next, face] = links_[v];
     for (std::size_t k = 0; k < 3; ++k)
-      if (side[next[k]] < 0)
+      if (is_outside_[next[k]] == 0)
         crossings_.push_back({next[k], slot_of(links_[next[k]].next, v), face[k], face[(k + 2) % 3]});
   }
+  for (const std::uint32_t v : outside) is_outside_[v] = 0;
 }
 
 /// Joins the new vertices, starting from `first`, around the new face. \return whether they form one loop
@@ -66,32 +70,36 @@ void HostPolyhedron::remove(std::uint32_t v) {
     points_[v] = points_[last];
     links_[v] = links_[last];
     for (const std::uint32_t u : links_[v].next) links_[u].next[slot_of(links_[u].next, last)] = v;
+    changed_.push_back(v);
   }
   points_.pop_back();
   links_.pop_back();
 }
 
-bool HostPolyhedron::cut(const std::vector<double>& side, const HostFace& face, const HostPlacer& place) {
+bool HostPolyhedron::cut(std::span<const std::uint32_t> outside, const HostFace& face,
+                         const HostPlacer& place) {
   const auto cut = static_cast<std::uint32_t>(faces_.size());
-  find_crossings(side);
+  find_crossings(outside);
   if (crossings_.size() < 3) return false;
   faces_.push_back(face);
-  mark_.assign(faces_.size(), none);
+  mark_.resize(faces_.size(), none);
+  slots_.assign(outside.begin(), outside.end());
   for (std::size_t k = 0; k < crossings_.size(); ++k) {  // new vertices take the numbers of those outside
     const auto& [kept, slot, right, left] = crossings_[k];
-    if (k == outside_.size()) {
-      outside_.push_back(static_cast<std::uint32_t>(size()));
+    if (k == slots_.size()) {
+      slots_.push_back(static_cast<std::uint32_t>(size()));
       points_.emplace_back();
       links_.emplace_back();
     }
-    const std::uint32_t v = outside_[k];
+    const std::uint32_t v = slots_[k];
     links_[v] = {{kept, none, none}, {right, cut, left}};
     points_[v] = place_vertex(place, links_[v].face);
     links_[kept].next[slot] = v;
     mark_[left] = v;
   }
-  if (!link_loop(outside_[0])) return false;
-  for (std::size_t k = outside_.size(); k-- > crossings_.size();) remove(outside_[k]);
+  if (!link_loop(slots_[0])) return false;
+  changed_.assign(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(crossings_.size()));
+  for (std::size_t k = slots_.size(); k-- > crossings_.size();) remove(slots_[k]);
   return true;
 }
 
@@ -113,6 +121,37 @@ void HostPolyhedron::number_faces() {
       f = number[f];
       mark_[f] = v;
     }
+}
+
+/// Face order[k] becomes face k. Vertices go by their faces, of which the first comes first in each.
+void HostPolyhedron::reorder(const std::vector<std::uint32_t>& order) {
+  std::vector<HostFace> faces;
+  for (std::uint32_t k = 0; k < order.size(); ++k) {
+    faces.push_back(faces_[order[k]]);
+    mark_[order[k]] = k;
+  }
+  faces_ = std::move(faces);
+  std::vector<std::pair<Links, std::uint32_t>> rows;  // faces of a vertex, and its number
+  for (std::uint32_t v = 0; v < size(); ++v) {
+    auto& [next, face] = links_[v];
+    for (std::uint32_t& f : face) f = mark_[f];
+    const auto turn = std::min_element(face.begin(), face.end()) - face.begin();
+    std::rotate(face.begin(), face.begin() + turn, face.end());
+    std::rotate(next.begin(), next.begin() + turn, next.end());
+    rows.emplace_back(face, v);
+  }
+  std::sort(rows.begin(), rows.end());
+  std::vector<std::uint32_t> number(size());
+  for (std::uint32_t v = 0; v < size(); ++v) number[rows[v].second] = v;
+  std::vector<HostPoint> points;
+  std::vector<Vertex> links;
+  for (const auto& [face, v] : rows) {
+    points.push_back(points_[v]);
+    links.push_back(links_[v]);
+    for (std::uint32_t& u : links.back().next) u = number[u];
+  }
+  points_ = std::move(points);
+  links_ = std::move(links);
 }
 
 void HostPolyhedron::finish(const HostPlacer& place) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "lib/clip/host_plane.hpp"
@@ -20,8 +22,29 @@ class HostPolyhedron {
 
   /// The region's shape; facet f has the border ~f.
   void start(const HostRegion& region);
-  /// Keeps the vertices whose side is below 0. \return whether the part cut off is connected
-  bool cut(const std::vector<double>& side, const HostFace& face, const HostPlacer& place);
+  /// Cuts off the vertices `outside`, in ascending order and not all there are, by a plane. \return whether
+  /// they are connected
+  bool cut(std::span<const std::uint32_t> outside, const HostFace& face, const HostPlacer& place);
+  /// The vertices that the last cut made, or gave another number.
+  const std::vector<std::uint32_t>& changed() const { return changed_; }
+  /// Calls use(u) for the vertices next to v.
+  template <class Use>
+  void for_neighbors(std::size_t v, const Use& use) const {
+    for (const std::uint32_t u : links_[v].next) use(u);
+  }
+  /// Places vertex v exactly.
+  void sharpen(std::size_t v, const HostPlacer& place) { points_[v] = place.exactly(borders(v)); }
+  /// Makes the order of faces and vertices that of the borders of the faces, whatever the cuts were.
+  /// \param before  before(a, b): whether border a comes before b
+  template <class Before>
+  void sort_faces(const Before& before) {
+    number_faces();
+    std::vector<std::uint32_t> order(faces_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t f, std::uint32_t g) { return before(border(f), border(g)); });
+    reorder(order);
+  }
   /// Computes all vertices anew. To be called before the functions below.
   void finish(const HostPlacer& place);
   /// Measure, first moments and second moment (docs/mathematics.md (14), (14a)). To be called before
@@ -30,6 +53,7 @@ class HostPolyhedron {
 
   std::size_t size() const { return points_.size(); }
   const HostPoint& vertex(std::size_t v) const { return points_[v]; }
+  void set_verified(std::size_t v) { points_[v].is_verified = true; }
   ExactVertex borders(std::size_t v) const {
     const Links& face = links_[v].face;
     return {border(face[0]), border(face[1]), border(face[2])};
@@ -70,16 +94,19 @@ class HostPolyhedron {
     return links[0] == what ? 0 : links[1] == what ? 1 : 2;
   }
   HostPoint place_vertex(const HostPlacer& place, const Links& face) const;
-  void find_crossings(const std::vector<double>& side);
+  void find_crossings(std::span<const std::uint32_t> outside);
   bool link_loop(std::uint32_t first);
   void remove(std::uint32_t v);
   void number_faces();
+  void reorder(const std::vector<std::uint32_t>& order);
 
   std::vector<HostPoint> points_;
   std::vector<Vertex> links_;  ///< per vertex
   std::vector<HostFace> faces_;
-  std::vector<std::uint32_t> mark_;  ///< per face: a vertex
-  std::vector<std::uint32_t> outside_;
+  std::vector<std::uint32_t> mark_;       ///< per face: a vertex
+  std::vector<std::uint32_t> slots_;      ///< for new vertices
+  std::vector<std::uint8_t> is_outside_;  ///< during a cut, per vertex
+  std::vector<std::uint32_t> changed_;
   std::vector<Crossing> crossings_;
   std::vector<double> area_;
   std::vector<HostPlane> facets_;

@@ -107,6 +107,7 @@ void HostSearch::start(std::uint32_t rank) {
   seed_ = scene_.points[rank];
   seed_[3] -= 4 * least_product;
   horizon_ = 0;
+  effort_ = 0;
   if (rank / PackedTree::fan != home_) divide_tree(rank / PackedTree::fan);
   nodes_.clear();
   seeds_.clear();
@@ -129,6 +130,8 @@ void HostSearch::advance(const std::vector<Point>& cell, double radius, double r
     if (near.empty()) break;
     if (!is_first) keep_cutting(near, cell, radius);
     for (const Entry& node : near) open(node, reach);
+    effort_ += near.size();
+    if (gave_up()) return;
   }
   take_below(limit, reach, seeds_, queue_);
   if (!is_first) keep_cutting(queue_, cell, radius);

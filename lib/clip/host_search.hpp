@@ -19,20 +19,25 @@ class HostSearch {
 
   /// Starts the search for the cell of seed `rank`. Fast if the seed before was of the same leaf.
   void start(std::uint32_t rank);
-  /// The next seed, or nothing if no other seed can cut the cell.
+  /// The next seed, or nothing if no other seed can cut the cell, or if it gave up.
   /// \param radius    no vertex of the cell is farther from its seed
   /// \param vertices  vertices() lists them
   template <class Vertices>
   std::optional<std::uint32_t> next(double radius, const Vertices& vertices) {
     const double reach = 4 * (1 + search_margin / 4) * radius * radius;
-    while (queue_.empty() && horizon_ < reach) advance(vertices(), radius, reach);
-    if (queue_.empty() || !(queue_.back().key < reach)) return {};
+    while (queue_.empty() && horizon_ < reach && !gave_up()) advance(vertices(), radius, reach);
+    if (queue_.empty() || !(queue_.back().key < reach) || gave_up()) return {};
     const std::uint32_t seed = queue_.back().at;
     queue_.pop_back();
+    ++effort_;
     return seed;
   }
+  /// Whether it went through so many nodes and seeds that a search for each vertex is better.
+  bool gave_up() const { return effort_ > effort_most; }
 
  private:
+  /// White noise takes some 100.
+  static constexpr std::size_t effort_most = 256;
   /// A seed is left out only if it clears the cell by 1/16 of this part of its radius.
   static constexpr double search_margin = 1.0 / (1 << MARGIN_BITS_DOUBLE);
   static constexpr std::int32_t seed_level = -1, rest_level = -2;
@@ -57,8 +62,9 @@ class HostSearch {
   std::uint32_t rank_ = 0;
   std::array<double, 4> seed_{};
   double horizon_ = 0;
-  Entries nodes_, seeds_;  ///< beyond the horizon
-  Entries queue_;          ///< seeds within it, the nearest last
+  std::size_t effort_ = 0;  ///< nodes opened and seeds found
+  Entries nodes_, seeds_;   ///< beyond the horizon
+  Entries queue_;           ///< seeds within it, the nearest last
   // The leaves near the leaf of the seed, and nodes that hold all others; keys: squared distances.
   std::uint32_t home_ = ~std::uint32_t{0};
   Entries near_, rest_;

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "lib/base/compiler.hpp"
+#include "lib/base/two_doubles.hpp"
 
 namespace powercell {
 
@@ -154,11 +155,18 @@ inline int sign_of_sum(const std::array<Wide<n>, count>& a, const std::array<Wid
   return top < 0 ? -1 : top > 0 || any != 0;
 }
 
-/// x = fraction 2^exponent nearly, |fraction| in [2^63, 2^64] or 0.
+/// x = fraction 2^exponent but for 2^-104 of it, or 0.
 struct Scaled {
-  long double fraction;
+  TwoDoubles fraction;
   int exponent;
 };
+/// \param top, next  the leading 128 bits, the first of them set
+inline Scaled scaled_by(std::uint64_t top, std::uint64_t next, int exponent, bool negative) {
+  const auto high = static_cast<double>(top >> 11 << 11),
+             low = std::ldexp(static_cast<double>((top & 0x7FF) << 42 | next >> 22), -42);
+  const TwoDoubles size = joined(high, low);
+  return {negative ? -size : size, exponent};
+}
 template <int n>
 inline Scaled scaled(const Wide<n>& x) {
   const bool negative = x.negative();
@@ -166,12 +174,14 @@ inline Scaled scaled(const Wide<n>& x) {
   for (std::size_t k = n; k-- > 0;) {
     if (size.limb[k] == 0) continue;
     const int shift = std::countl_zero(size.limb[k]);
-    std::uint64_t top = size.limb[k] << shift;
-    if (shift > 0 && k > 0) top |= size.limb[k - 1] >> (64 - shift);
-    const auto fraction = static_cast<long double>(top);
-    return {negative ? -fraction : fraction, static_cast<int>(64 * k) - shift};
+    const auto word = [&](std::size_t below) {
+      const std::uint64_t here = k >= below ? size.limb[k - below] : 0,
+                          next = k > below ? size.limb[k - below - 1] : 0;
+      return shift == 0 ? here : here << shift | next >> (64 - shift);
+    };
+    return scaled_by(word(0), word(1), static_cast<int>(64 * k) - shift, negative);
   }
-  return {0, 0};
+  return {};
 }
 
 }  // namespace powercell
