@@ -36,7 +36,8 @@ struct Overlap {
 /// The elements of a mesh that were left out, and those that overlap. Empty for polygons and boxes.
 struct MeshReport {
   std::vector<std::uint32_t> flat;  ///< elements without area or volume, left out
-  /// Elements with the same corners as an earlier one, left out: the index of each and of the earlier one.
+  /// Elements with the same corners as an earlier one, left out: the index of each and of the earlier one. In
+  /// the surface of a solid both are left out.
   std::vector<std::array<std::uint32_t, 2>> repeated;
   /// Pairs of the others that overlap by more than rounding (2^-50 of the largest coordinate). Their common
   /// part counts twice. Of each place that is covered more than once at least one pair is found.
@@ -79,10 +80,10 @@ class POWERCELL_API Domain {
   /// an odd number of times. So shells in shells bound cavities and bodies in cavities in turn; in which
   /// direction the triangles of a shell are oriented does not matter. \param vertices nv x 3, row-major
   /// \param triangles nt x 3 indices from 0 Vertices at the same position count as one, and triangles with
-  /// two corners at one position are left out. The surface may touch itself in vertices and edges that
-  /// triangles share. The geometry of cells in a solid is that of Diagram::joined(), without convex pieces:
-  /// Diagram::cells() and all that needs it throws Error unsupported, as does single precision. regions() is
-  /// empty. \throw Error
+  /// two corners at one position are left out, and so are pairs with the same corners, as of a face that two
+  /// bodies share. The surface may touch itself in vertices and edges that triangles share. The geometry of
+  /// cells in a solid is that of Diagram::joined(), without convex pieces: Diagram::cells() and all that
+  /// needs it throws Error unsupported, as does single precision. regions() is empty. \throw Error
   /// invalid_domain (names triangles and the place): an edge with an odd number of triangles, an edge whose
   /// two triangles are oriented against each other, triangles that cross, overlap or touch otherwise, corners
   /// in a line

@@ -23,7 +23,12 @@ std::vector<std::string> Domain::notes() const {
                     counted(found.flat.size(), (is_solid() ? "degenerate " : "flat ") + one,
                             (is_solid() ? "degenerate " : "flat ") + many) +
                     ", the first is " + one + " " + std::to_string(found.flat[0]));
-  if (!found.repeated.empty()) {
+  if (!found.repeated.empty() && is_solid()) {
+    const auto [index, earlier] = found.repeated[0];
+    notes.push_back("left out " + counted(found.repeated.size(), "pair", "pairs") +
+                    " of triangles with the same corners, as of a face between two bodies; the first is " +
+                    std::to_string(earlier) + " and " + std::to_string(index));
+  } else if (!found.repeated.empty()) {
     const auto [index, earlier] = found.repeated[0];
     notes.push_back("left out " + counted(found.repeated.size(), one, many) +
                     " given twice, with the corners of an earlier one; the first is " + one + " " +

@@ -45,6 +45,10 @@ class Shells {
   bool goes_up(std::uint32_t slot) const {
     return triangle_[slot / 3][slot % 3] < triangle_[slot / 3][(slot + 1) % 3];
   }
+  void drop_common_faces();
+  bool is_of_common_face(const FacetKey<2>& edge) const {
+    return std::binary_search(common_edges_.begin(), common_edges_.end(), edge.vertex);
+  }
   void check_edge(std::span<const FacetKey<2>> shared) const;
   std::uint32_t patch_of(std::uint32_t row);
   bool is_turned(std::uint32_t row) const;
@@ -55,6 +59,8 @@ class Shells {
   std::span<const double> vertices_;
   std::vector<Corners> triangle_;
   std::vector<std::uint32_t> source_, parent_, degenerate_;
+  std::vector<std::array<std::uint32_t, 2>> repeated_;      ///< see MeshReport
+  std::vector<std::array<std::uint32_t, 2>> common_edges_;  ///< of faces that two bodies share, ascending
 };
 
 Shells::Shells(std::span<const double> vertices, std::span<const std::uint32_t> indices)
@@ -81,8 +87,42 @@ Shells::Shells(std::span<const double> vertices, std::span<const std::uint32_t> 
     source_.push_back(k / 3);
   }
   if (triangle_.empty()) refuse_solid("the domain is empty: all triangles are degenerate");
+  drop_common_faces();
+  if (triangle_.empty())
+    refuse_solid("the domain is empty: the surface is there twice; leave out the second copy");
   parent_.resize(triangle_.size());
   std::iota(parent_.begin(), parent_.end(), 0u);
+}
+
+/// Triangles with the same corners cancel in pairs, as where two bodies share a face: on both sides of it is
+/// the inside, or the outside.
+void Shells::drop_common_faces() {
+  std::vector<std::pair<Corners, std::uint32_t>> rows;
+  for (std::uint32_t row = 0; row < triangle_.size(); ++row) {
+    rows.emplace_back(triangle_[row], row);
+    std::sort(rows.back().first.begin(), rows.back().first.end());
+  }
+  std::sort(rows.begin(), rows.end());
+  std::vector<bool> dropped(triangle_.size());
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+    if (rows[k].first != rows[k + 1].first) continue;
+    const auto& [c, first] = rows[k];
+    const std::uint32_t second = rows[++k].second;
+    dropped[first] = dropped[second] = true;
+    repeated_.push_back({source_[second], source_[first]});
+    common_edges_.insert(common_edges_.end(), {{c[0], c[1]}, {c[0], c[2]}, {c[1], c[2]}});
+  }
+  if (repeated_.empty()) return;
+  std::sort(repeated_.begin(), repeated_.end());
+  std::sort(common_edges_.begin(), common_edges_.end());
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < triangle_.size(); ++row) {
+    if (dropped[row]) continue;
+    triangle_[kept] = triangle_[row];
+    source_[kept++] = source_[row];
+  }
+  triangle_.resize(kept);
+  source_.resize(kept);
 }
 
 std::uint32_t Shells::patch_of(std::uint32_t row) {
@@ -99,7 +139,8 @@ void Shells::check_edge(std::span<const FacetKey<2>> shared) const {
     refuse_solid("the surface of the solid is not closed: " + std::to_string(shared.size()) +
                  " triangles, of which the " + "first is " + name(first) + ", share " + edge_text(shared[0]) +
                  "; an even number can");
-  if (shared.size() == 2 && goes_up(shared[0].slot) == goes_up(shared[1].slot))
+  if (shared.size() == 2 && goes_up(shared[0].slot) == goes_up(shared[1].slot) &&
+      !is_of_common_face(shared[0]))
     refuse_solid("the surface of the solid is inside out in a part: triangles " + name(first) + " and " +
                  name(shared[1].slot / 3) + " at " + edge_text(shared[0]) +
                  " have opposite orientations; repair the surface first");
@@ -113,17 +154,22 @@ void Shells::join_patches() {
   }
   for_each_shared(edges, [&](std::span<const FacetKey<2>> shared) {
     check_edge(shared);
-    if (shared.size() == 2) parent_[patch_of(shared[1].slot / 3)] = patch_of(shared[0].slot / 3);
+    if (shared.size() == 2 && goes_up(shared[0].slot) != goes_up(shared[1].slot))
+      parent_[patch_of(shared[1].slot / 3)] = patch_of(shared[0].slot / 3);
   });
   for (std::uint32_t row = 0; row < triangle_.size(); ++row) parent_[row] = patch_of(row);
 }
 
 void Shells::check_crossings() const {
   const std::optional<TrianglePair> pair = find_improper_pair(vertices_, triangle_);
-  if (pair)
-    refuse_solid("the surface of the solid crosses or touches itself: triangles " + name(pair->first) +
-                 " and " + name(pair->second) + " have more in common around " +
-                 place_text(pair->place.data()) + " than a corner or an edge of both");
+  if (!pair) return;
+  const bool two = parent_[pair->first] != parent_[pair->second];
+  refuse_solid("the surface of the solid crosses or touches itself: triangles " + name(pair->first) +
+               " and " + name(pair->second) + " have more in common around " +
+               place_text(pair->place.data()) + " than a corner or an edge of both; " +
+               (two ? "they are of two bodies: merge these into one surface (a boolean union in a mesh "
+                      "program), or compute each body separately if they only touch"
+                    : "repair the surface first"));
 }
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -238,6 +284,7 @@ std::shared_ptr<RegionMesh> Shells::boundary() const {
   mesh->facet.assign(mesh->region_vertex.size(), {Border::Kind::boundary, 0});
   mesh->source = source_;
   mesh->report.flat = degenerate_;
+  mesh->report.repeated = repeated_;
   return mesh;
 }
 

@@ -94,6 +94,31 @@ TEST_CASE("solid: surfaces that touch themselves in edges and vertices") {
   }
 }
 
+TEST_CASE("solid: bodies that share a face are one") {
+  for (const bool turned : {false, true}) {
+    Mesh mesh = cube_surface(1, true), mirrored = cube_surface(1, true);
+    for (std::size_t k = 0; k < mirrored.vertices.size(); k += 3)
+      mirrored.vertices[k] = 2 - mirrored.vertices[k];
+    for (std::size_t k = 0; turned && k < mirrored.elements.size(); k += 3)
+      std::swap(mirrored.elements[k], mirrored.elements[k + 1]);
+    add(mesh, mirrored);
+    const Domain domain = solid_of(mesh);
+    CHECK(domain.measure() == doctest::Approx(2).epsilon(1e-15));
+    CHECK(domain.report().repeated.size() == 2);
+    CHECK(contains(domain.notes().at(0), "left out 2 pairs of triangles"));
+    if (!has_double()) continue;
+    SeedArray seeds;
+    seeds.push({0.5, 0.5, 0.5}, 0);
+    seeds.push({1.5, 0.5, 0.5}, 0);
+    seeds.push({0.9, 0.5, 0.5}, 0);
+    Diagram diagram(main_setups().front().device, domain);
+    diagram.set_seeds(seeds.view());
+    CHECK(diagram.measures().mass[0] == doctest::Approx(0.7).epsilon(1e-14));
+    CHECK(diagram.measures().mass[2] == doctest::Approx(0.5).epsilon(1e-14));
+    CHECK(diagram.adjacency().wall[0] == doctest::Approx(1).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("solid: refused surfaces, with the place") {
   const Mesh cube = cube_surface(1, true);
   Mesh open = cube;
@@ -117,9 +142,10 @@ TEST_CASE("solid: refused surfaces, with the place") {
   Mesh pierced = cube;
   add(pierced, cube_surface(0.5, true), 0.4);
   CHECK(contains(refusal(pierced), "crosses or touches itself"));
+  CHECK(contains(refusal(pierced), "merge these into one surface"));
   Mesh twice = cube;
   add(twice, cube);
-  CHECK(refusal(twice) != "");
+  CHECK(contains(refusal(twice), "the surface is there twice"));
 
   Mesh flat = cube;
   flat.vertices.insert(flat.vertices.end(), {5, 5, 5, 6, 6, 6, 7, 7, 7});
