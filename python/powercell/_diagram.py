@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _looks
 from ._arrays import Indices, Reals, indices, optional_reals, reals
+from ._copies import device_by_name, restore_diagram
 from ._device import Device, DeviceLike, open_device
 from ._domain import Domain
 from ._frames import checked_seeds
@@ -42,7 +43,7 @@ class Diagram:
         In place of weights, which are their squares.
     device : Device, str or list of these, optional
         As for :meth:`Device.choose`. Default: the best one.
-    precision : {"auto", "double", "float"}
+    precision : {"auto", "double", "float"} or a type of NumPy
     neighbors : {"auto", "tree", "flann"}
         How candidate neighbours are found; the cells are the same.
     decisions : {"exact", "fast"}
@@ -96,7 +97,7 @@ class Diagram:
         weights: Optional[ArrayLike] = None,
         *,
         device: DeviceLike = None,
-        precision: str = "auto",
+        precision: Any = "auto",
         neighbors: str = "auto",
         decisions: str = "exact",
         certify: bool = False,
@@ -127,6 +128,7 @@ class Diagram:
         progress_function(progress)  # refuses what is none
         self._progress = progress
         points, given, self._columns = checked_seeds(domain, positions, weights, radii)
+        self._device, self._options = device, options
         self._core: Any = _core.Diagram(open_device(device), domain._core, options)
         self._set(points, given)
 
@@ -136,6 +138,11 @@ class Diagram:
         self._hidden_known = weights is None  # without weights only duplicates have no cell
         self._selection: Optional[Indices] = None
         warn_of_seeds_outside(self.domain, positions)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        options = {**self._options, "device": device_by_name(self._device)}
+        arguments = {"domain": self.domain, "positions": self._positions, "weights": self._weights, **options}
+        return restore_diagram, (type(self), arguments, self._columns, self._selection)
 
     def set_seeds(
         self, positions: ArrayLike, weights: Optional[ArrayLike] = None, *, radii: Optional[ArrayLike] = None

@@ -10,11 +10,14 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import Indices, Reals, reals
+from ._copies import restore_domain
 from ._shapes import crs_of, is_geographic, polygon_parts, surface_arrays, volume_arrays
 
 
 class Domain:
     """A polygon, surface or volume that a diagram is restricted to. Immutable.
+
+    Pickles and copies: with what it was made from, or with the path of the file that it was read from.
 
     Made by :meth:`box`, :meth:`lattice`, :meth:`polygon`, :meth:`surface`, :meth:`volume` or
     :func:`read_domain`.
@@ -27,6 +30,25 @@ class Domain:
         self._core = core
         #: Coordinate system of a map, as it came in; None otherwise.
         self.crs = crs
+        self._made_by: tuple[str, tuple[Any, ...]] = ("", ())
+
+    @classmethod
+    def _make(cls, name: str, arguments: tuple[Any, ...], crs: Any = None) -> Domain:
+        if name == "read_domain":
+            domain = cls(_core.read_domain(*arguments).domain, crs)
+        else:
+            domain = cls(getattr(_core.Domain, name)(*arguments), crs)
+        domain._made_by = (name, arguments)
+        return domain
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restore_domain, (type(self), *self._made_by, self.crs)
+
+    def __copy__(self) -> Domain:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Domain:
+        return self
 
     @classmethod
     def box(
@@ -54,7 +76,7 @@ class Domain:
         axes = [periodic] * len(first) if isinstance(periodic, (bool, np.bool_)) else list(periodic)
         if len(axes) != len(first):
             raise ValueError(f"periodic has {len(axes)} values; one for each of {len(first)} axes is expected")
-        return cls(_core.Domain.box(first.tolist(), last.tolist(), [bool(axis) for axis in axes]))
+        return cls._make("box", (first.tolist(), last.tolist(), [bool(axis) for axis in axes]))
 
     @classmethod
     def lattice(cls, vectors: ArrayLike, origin: Optional[ArrayLike] = None) -> Domain:
@@ -70,7 +92,7 @@ class Domain:
         if rows.shape not in ((2, 2), (3, 3)):
             raise ValueError(f"vectors has the shape {rows.shape}; (2, 2) or (3, 3) is expected")
         start = [] if origin is None else reals(origin, "origin", (len(rows),)).tolist()
-        return cls(_core.Domain.lattice(rows.ravel().tolist(), start))
+        return cls._make("lattice", (rows.ravel().tolist(), start))
 
     @classmethod
     def polygon(cls, shape: Any, crs: Any = None, *, degrees: bool = False) -> Domain:
@@ -93,7 +115,7 @@ class Domain:
                 "shape is in degrees, whose areas and distances mean little: project it first, e.g. "
                 "shape.to_crs(shape.estimate_utm_crs()), or pass degrees=True to compute with degrees"
             )
-        return cls(_core.Domain.polygon(polygon_parts(shape)), crs)
+        return cls._make("polygon", (polygon_parts(shape),), crs)
 
     @classmethod
     def surface(cls, vertices: Any, triangles: Optional[ArrayLike] = None) -> Domain:
@@ -106,7 +128,7 @@ class Domain:
         triangles : (nt, 3) array_like of int
             Indices of vertices, from 0.
         """
-        return cls(_core.Domain.surface(*surface_arrays(vertices, triangles)))
+        return cls._make("surface", tuple(surface_arrays(vertices, triangles)))
 
     @classmethod
     def volume(cls, vertices: Any, tetrahedra: Optional[ArrayLike] = None) -> Domain:
@@ -119,7 +141,7 @@ class Domain:
         tetrahedra : (nt, 4) array_like of int
             Indices of vertices, from 0, in either orientation.
         """
-        return cls(_core.Domain.volume(*volume_arrays(vertices, tetrahedra)))
+        return cls._make("volume", tuple(volume_arrays(vertices, tetrahedra)))
 
     @classmethod
     def solid(cls, vertices: Any, triangles: Optional[ArrayLike] = None) -> Domain:
@@ -144,7 +166,7 @@ class Domain:
         >>> pc.Domain.solid(*pc.sphere(4)).kind
         'volume'
         """
-        return cls(_core.Domain.solid(*surface_arrays(vertices, triangles)))
+        return cls._make("solid", tuple(surface_arrays(vertices, triangles)))
 
     def wrapped(self, positions: ArrayLike) -> np.ndarray:
         """(n, d): points moved by whole periods into a periodic domain; elsewhere as they are."""
@@ -268,4 +290,6 @@ def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto", *, degre
             "frame = geopandas.read_file(path); frame.to_crs(frame.estimate_utm_crs()), or pass degrees=True to "
             "compute with degrees"
         )
-    return Domain(loaded.domain, loaded.crs or None)
+    domain = Domain(loaded.domain, loaded.crs or None)
+    domain._made_by = ("read_domain", (os.path.abspath(path) if os.path.exists(path) else os.fspath(path), kind))
+    return domain

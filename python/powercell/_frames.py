@@ -12,6 +12,23 @@ from ._domain import Domain
 from ._shapes import require_same_crs
 
 
+def _geometry_points(positions: Any, dimension: int) -> Optional[ArrayLike]:
+    """The coordinates of points of Shapely: a MultiPoint, or a list or array of points; None for other positions."""
+    points = getattr(positions, "geoms", positions)
+    is_sequence = hasattr(points, "__len__") and hasattr(points, "__getitem__") and not isinstance(points, str)
+    if not is_sequence or len(points) == 0:
+        return None
+    first = points.iloc[0] if hasattr(points, "iloc") else points[0]
+    if getattr(first, "geom_type", "") != "Point":
+        return None
+    wrong = [k for k, point in enumerate(points) if getattr(point, "geom_type", "") != "Point" or point.is_empty]
+    if wrong:
+        raise ValueError(f"positions: row {wrong[0]} is not a point, as the others are")
+    if dimension == 3 and not all(point.has_z for point in points):
+        raise ValueError("positions are points in the plane, and the domain is in space")
+    return np.array([[getattr(point, axis) for axis in "xyz"[:dimension]] for point in points], dtype=np.float64)
+
+
 def _points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
     """The points of a table or of geometries; other positions as they are. Columns x, y, z go by their names."""
     geometry = getattr(positions, "geometry", None)
@@ -19,7 +36,8 @@ def _points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
         require_same_crs(positions, crs)
         return np.column_stack([geometry.x, geometry.y])
     if not hasattr(positions, "columns"):
-        return positions  # type: ignore[no-any-return]
+        points = _geometry_points(positions, dimension)
+        return positions if points is None else points
     names = [str(name).strip().lower() for name in positions.columns]
     axes = list("xyz"[:dimension])
     if not all(names.count(axis) == 1 for axis in axes):
@@ -58,6 +76,8 @@ def checked_seeds(
         An array of the wrong shape or type, by name; weights and radii; a negative radius.
     """
     d = domain.dimension
+    if isinstance(positions, (list, tuple)) and len(positions) == 0:
+        raise ValueError(f"positions is empty; np.empty((0, {d})) is a diagram without seeds")
     given = _points_of(positions, d, domain.crs)
     points = reals(given, "positions", (None, d), f", since the domain is {'in the plane' if d == 2 else 'in space'}")
     columns = positions if given is not positions and hasattr(positions, "geometry") else None

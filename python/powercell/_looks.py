@@ -76,7 +76,7 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
     pyplot = package("matplotlib.pyplot")
     paths, patches = package("matplotlib.path"), package("matplotlib.collections")
     if ax is None:
-        ax = pyplot.gca()
+        _, ax = pyplot.subplots()
     compound, cell_of = [], []
     for cell, rings in enumerate(_rings(diagram)):
         if rings:
@@ -102,7 +102,7 @@ def to_geopandas(diagram: Diagram) -> Any:
     given: Any = diagram._columns
     columns: dict[str, Any] = {}
     if hasattr(given, "columns"):  # a GeoSeries has none
-        columns = {key: np.asarray(given[key]) for key in given.columns if key != given.geometry.name}
+        columns = {key: given[key] for key in given.columns if key != given.geometry.name}
     centroid = diagram.centroid
     values = {
         "seed": np.arange(len(diagram)),
@@ -115,7 +115,8 @@ def to_geopandas(diagram: Diagram) -> Any:
     for key, value in values.items():
         columns[key if key not in columns else f"cell_{key}"] = value
     crs = diagram.domain.crs if diagram.domain.crs is not None else getattr(given, "crs", None)
-    return geopandas.GeoDataFrame(columns, geometry=polygons(diagram), crs=crs)
+    labels = getattr(given, "index", None)
+    return geopandas.GeoDataFrame(columns, geometry=polygons(diagram), crs=crs, index=labels)
 
 
 def _space(vertices: np.ndarray) -> np.ndarray:

@@ -4,9 +4,23 @@ from __future__ import annotations
 
 from typing import Any, Optional
 
+import numpy as np
+
+_PRECISIONS = {"float32": "float", "float64": "double"}
+
+
+def precision_name(precision: Any) -> Any:
+    """What the core calls a precision: types of NumPy are answered too."""
+    if not isinstance(precision, str):
+        try:
+            precision = np.dtype(precision).name
+        except TypeError:
+            raise ValueError(f"precision is {precision!r}; 'auto', 'double', 'float' or a type of NumPy is expected") from None
+    return _PRECISIONS.get(precision, precision)
+
 
 def diagram_options(
-    precision: str = "auto",
+    precision: Any = "auto",
     neighbors: str = "auto",
     decisions: str = "exact",
     certify: bool = False,
@@ -18,7 +32,7 @@ def diagram_options(
     keep_mesh: bool = False,
 ) -> dict[str, Any]:
     return {
-        "precision": precision,
+        "precision": precision_name(precision),
         "neighbors": neighbors,
         "decisions": decisions,
         "certify": certify,
