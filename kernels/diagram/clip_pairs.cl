@@ -1,4 +1,5 @@
 /* Clips (region, seed) pairs whose number only the device knows. */
+#define LEAVES_TO_HOST 0 /* the caller may not want a host to follow */
 #include "clip/arguments.cl"
 #include "neighbors/search.cl"
 

@@ -14,6 +14,9 @@
    (docs/mathematics.md (86b)). */
 #define VISITS_LIMIT 1024
 #define MISSES_LIMIT 512
+#ifndef LEAVES_TO_HOST
+#define LEAVES_TO_HOST 1
+#endif
 
 /* Cells start no nearer than this: products of four lengths are in the range of numbers. */
 #define LEAST_EXTENT ((real)1e-7)
@@ -98,7 +101,7 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   push_root(&stack, tree);
   for (int visits = 0, misses = 0; stack.depth > 0; ++visits) {
     const bool close = visits >= VISITS_MOST;
-    if (visits >= VISITS_LIMIT || misses >= MISSES_LIMIT) return CUT_TANGLED;
+    if (LEAVES_TO_HOST && (visits >= VISITS_LIMIT || misses >= MISSES_LIMIT)) return CUT_TANGLED;
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
     if (level > 0) {

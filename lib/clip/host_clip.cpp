@@ -123,7 +123,7 @@ class PieceClipper final : public HostClipper {
     open_.resize(cell_.size());
     std::iota(open_.begin(), open_.end(), 0U);
     side_.assign(cell_.size(), 0);
-    bool tied = false;
+    bool tied = false, tied_on_the_way = exact_.met_tie();
     while (!open_.empty()) {
       const std::uint32_t v = open_.back();
       open_.pop_back();
@@ -137,8 +137,9 @@ class PieceClipper final : public HostClipper {
       }
       const Cutter cutter = cutter_of(*other);
       find_outside_from(v, cutter);
+      tied_on_the_way = tied_on_the_way || exact_.met_tie();
       if (outside_.size() == cell_.size()) {
-        exact_.set_met_tie(true);  // there may have been one, on another way
+        exact_.set_met_tie(tied_on_the_way);
         return false;
       }
       cut(cutter);
