@@ -100,7 +100,7 @@ class PieceClipper final : public HostClipper {
 
   /// After so many exact decisions about a cell, vertices are placed exactly first: most decisions that
   /// follow need no other.
-  static constexpr int exact_most = 48;
+  static constexpr int exact_most = 160;
   static constexpr std::size_t doubtful_most = 12;
 
   /// False if nothing is left.
