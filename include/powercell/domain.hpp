@@ -77,16 +77,22 @@ class POWERCELL_API Domain {
   static Domain volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
   /// The inside of a closed surface, without any tetrahedra: the points from which a ray crosses the surface
-  /// an odd number of times. So shells in shells bound cavities and bodies in cavities in turn; in which
-  /// direction the triangles of a shell are oriented does not matter. \param vertices nv x 3, row-major
-  /// \param triangles nt x 3 indices from 0 Vertices at the same position count as one, and triangles with
-  /// two corners at one position are left out, and so are pairs with the same corners, as of a face that two
-  /// bodies share. The surface may touch itself in vertices and edges that triangles share. The geometry of
-  /// cells in a solid is that of Diagram::joined(), without convex pieces: Diagram::cells() and all that
-  /// needs it throws Error unsupported, as does single precision. regions() is empty. \throw Error
-  /// invalid_domain (names triangles and the place): an edge with an odd number of triangles, an edge whose
-  /// two triangles are oriented against each other, triangles that cross, overlap or touch otherwise, corners
-  /// in a line
+  /// an odd number of times. So shells in shells bound cavities and bodies in cavities in turn. The
+  /// orientation of a shell does not matter.
+  ///
+  /// Vertices at the same position count as one. Triangles with two corners at one position are left out, and
+  /// pairs of triangles with the same corners, as two bodies share them. The surface may touch itself in
+  /// vertices and edges that triangles share.
+  ///
+  /// The geometry of cells in a solid is that of Diagram::joined(), without convex pieces: Diagram::cells()
+  /// and all that needs it throws Error unsupported, as does single precision. regions() is empty.
+  ///
+  /// \param vertices   nv x 3, row-major
+  /// \param triangles  nt x 3 indices from 0
+  /// \throw Error  invalid_domain (names triangles and the place): an edge with an odd number of triangles,
+  /// an
+  ///               edge whose two triangles are oriented against each other, triangles that cross, overlap or
+  ///               touch otherwise, corners in a line
   static Domain solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
   /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain

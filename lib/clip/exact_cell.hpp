@@ -17,7 +17,7 @@ struct HostScene;
 /// ~facet of the region. Polygons and surfaces have two, volumes three.
 using ExactVertex = std::array<std::int32_t, 3>;
 
-/// A point relative to a seed.
+/// A point relative to a seed, to some 100 bits.
 using ClosePoint = std::array<TwoDoubles, 3>;
 
 /// Exact predicates in integers that are as short as the seeds allow. Ties are broken by simulation of
@@ -26,6 +26,7 @@ using ClosePoint = std::array<TwoDoubles, 3>;
 /// (docs/mathematics.md (86)).
 class ExactCell {
  public:
+  /// Relative error of the coordinates that place() returns.
   static constexpr double place_error = 2 * TwoDoubles::rounding;
 
   explicit ExactCell(const HostScene& scene);
@@ -34,12 +35,13 @@ class ExactCell {
 
   /// From now on all decisions are about the cell of seed `rank` in `region`.
   void start(std::uint32_t rank, std::uint32_t region);
-  /// Whether any side since start(), or since it was set, was decided by the infinitesimals.
+  /// Whether the infinitesimals decided any side since start().
   bool met_tie() const { return met_tie_; }
+  /// Replaces the answer of met_tie(), for decisions on which the result does not depend.
   void set_met_tie(bool met) { met_tie_ = met; }
   /// Whether the vertex is beyond the bisector with seed `other`; false if that is one of its planes.
   bool is_outside(const ExactVertex& vertex, std::int32_t other);
-  /// The vertex relative to the seed; each coordinate has a relative error of place_error at most.
+  /// The vertex relative to the seed; each coordinate is off by place_error of itself at most.
   ClosePoint place(const ExactVertex& vertex);
   /// Whether the vertex without the infinitesimals lies in the plane of `border`.
   bool lies_in(const ExactVertex& vertex, std::int32_t border);

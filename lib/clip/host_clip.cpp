@@ -115,11 +115,10 @@ class PieceClipper final : public HostClipper {
     return search_.gave_up() ? cut_by_vertices() : true;
   }
 
-  /// The same by a search for each vertex. Each seed found cuts the cell, so it ends with vertices that no
-  /// seed takes. What was found on the way depends on earlier cells: nothing of the result may.
+  /// The same by a search for each vertex, until no seed is nearer to any vertex than the cell's own. Which
+  /// seeds cut on the way depends on the cells before. The result does not: faces and vertices are sorted.
   bool cut_by_vertices() {
     vertex_search_.start(rank_);
-    close_search_.start(rank_);
     open_.resize(cell_.size());
     std::iota(open_.begin(), open_.end(), 0U);
     side_.assign(cell_.size(), 0);
@@ -153,14 +152,14 @@ class PieceClipper final : public HostClipper {
     return true;
   }
 
-  /// The order of bisectors, the same whatever ranks the seeds have.
+  /// Sorts bisectors by the positions of their seeds alone: ranks differ between diagrams.
   std::array<double, 4> place_in_order(std::int32_t other) const {
     const Point q = position(scene_.points[static_cast<std::size_t>(other)]) - position(scene_.points[rank_]);
     return {dot(q, q), q[0], q[1], q[2]};
   }
 
-  /// A seed that the vertex belongs to rather than to the cell's own. Where more than a few may be as near to
-  /// rounding, they are searched for again with more digits, and what that leaves open is decided exactly.
+  /// A seed that is nearer to the vertex than the cell's own. If doubles leave more than a few in doubt,
+  /// pairs of doubles search again. Exact decisions settle the rest.
   std::optional<std::uint32_t> find_cutter(std::uint32_t v) {
     sharpen(v);
     const HostPoint& vertex = cell_.vertex(v);
@@ -168,6 +167,7 @@ class PieceClipper final : public HostClipper {
     const std::size_t most = is_on_bisector(borders) ? doubtful_most : scene_.points.size();
     if (const auto other = vertex_search_.find(vertex.at, vertex.error, most)) return other;
     if (vertex_search_.doubtful().size() <= most) return find_exactly(borders, vertex_search_.doubtful());
+    close_search_.start(rank_);
     const ClosePoint place = exact_.place(borders);
     const double error = ExactCell::place_error * sum_of_sizes(vertex.at);
     if (const auto other = close_search_.find(place, error, scene_.points.size())) return other;

@@ -7,8 +7,8 @@
 namespace powercell {
 namespace {
 
-/// So many places are kept; then all that is known is forgotten.
-constexpr std::size_t most_places = std::size_t{1} << 20;
+/// So many places are kept; then all that is known is forgotten, which costs one search through all seeds.
+constexpr std::size_t most_places = std::size_t{1} << 16;
 
 /// Largest relative error of an operation.
 template <class Real>

@@ -13,9 +13,9 @@
 
 namespace powercell {
 
-/// Finds the seed of least power distance from a point, among seeds of which thousands may be as near to
-/// rounding (docs/mathematics.md (86b)). It keeps what it learns about the
-/// nodes of the tree: of seeds on a circle, the first search goes through all and the next ones through few.
+/// Finds the seed of least power distance from a vertex. Thousands of seeds may be equally near, to rounding
+/// (docs/mathematics.md (86b)). Each search leaves bounds in the nodes of the tree for the next one: of seeds
+/// on a circle, the first search goes through all and later ones through few. Each thread needs its own.
 /// \tparam Real  double or TwoDoubles
 template <class Real>
 class VertexSearch {
@@ -27,10 +27,11 @@ class VertexSearch {
 
   /// From now on vertices are relative to seed `rank`.
   void start(std::uint32_t rank);
-  /// The seed that the vertex belongs to rather than to the cell's own, if rounding leaves no doubt that
-  /// there is one. If there is none, doubtful() lists the seeds that may be as near. \param error  at least
-  /// the distance of the vertex from its true place \param most   if more seeds than this are in doubt, the
-  /// search ends early: doubtful() then has more
+  /// A seed that is nearer to the vertex than the cell's own, beyond doubt. Without one, doubtful() lists the
+  /// seeds that rounding does not tell from the cell's own.
+  /// \param vertex  relative to the cell's seed
+  /// \param error   at least the distance of the vertex from its true place
+  /// \param most    the search ends early once doubtful() has more seeds than this
   std::optional<std::uint32_t> find(const Vector& vertex, double error, std::size_t most);
   const std::vector<std::uint32_t>& doubtful() const { return doubtful_; }
 

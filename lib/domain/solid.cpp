@@ -37,6 +37,10 @@ class Shells {
   long double volume() const;
 
  private:
+  /// An edge of two triangles with the same corners, and the places of both in the input.
+  struct CommonEdge {
+    std::array<std::uint32_t, 2> vertex, pair;
+  };
   const double* at(std::uint32_t v) const { return &vertices_[3 * std::size_t{v}]; }
   std::string name(std::uint32_t row) const { return std::to_string(source_[row]); }
   std::string edge_text(const FacetKey<2>& edge) const {
@@ -46,8 +50,11 @@ class Shells {
     return triangle_[slot / 3][slot % 3] < triangle_[slot / 3][(slot + 1) % 3];
   }
   void drop_common_faces();
-  bool is_of_common_face(const FacetKey<2>& edge) const {
-    return std::binary_search(common_edges_.begin(), common_edges_.end(), edge.vertex);
+  /// A pair of triangles with the same corners, left out, that has the edge; null if there is none.
+  const std::array<std::uint32_t, 2>* repeated_at(const FacetKey<2>& edge) const {
+    const auto found = std::lower_bound(common_edges_.begin(), common_edges_.end(), edge.vertex,
+                                        [](const CommonEdge& a, const auto& b) { return a.vertex < b; });
+    return found != common_edges_.end() && found->vertex == edge.vertex ? &found->pair : nullptr;
   }
   void check_edge(std::span<const FacetKey<2>> shared) const;
   std::uint32_t patch_of(std::uint32_t row);
@@ -59,8 +66,8 @@ class Shells {
   std::span<const double> vertices_;
   std::vector<Corners> triangle_;
   std::vector<std::uint32_t> source_, parent_, degenerate_;
-  std::vector<std::array<std::uint32_t, 2>> repeated_;      ///< see MeshReport
-  std::vector<std::array<std::uint32_t, 2>> common_edges_;  ///< of faces that two bodies share, ascending
+  std::vector<std::array<std::uint32_t, 2>> repeated_;  ///< see MeshReport
+  std::vector<CommonEdge> common_edges_;                ///< ascending
 };
 
 Shells::Shells(std::span<const double> vertices, std::span<const std::uint32_t> indices)
@@ -110,11 +117,13 @@ void Shells::drop_common_faces() {
     const std::uint32_t second = rows[++k].second;
     dropped[first] = dropped[second] = true;
     repeated_.push_back({source_[second], source_[first]});
-    common_edges_.insert(common_edges_.end(), {{c[0], c[1]}, {c[0], c[2]}, {c[1], c[2]}});
+    for (const auto& [a, b] : {std::pair{c[0], c[1]}, {c[0], c[2]}, {c[1], c[2]}})
+      common_edges_.push_back({{a, b}, repeated_.back()});
   }
   if (repeated_.empty()) return;
   std::sort(repeated_.begin(), repeated_.end());
-  std::sort(common_edges_.begin(), common_edges_.end());
+  std::sort(common_edges_.begin(), common_edges_.end(),
+            [](const CommonEdge& a, const CommonEdge& b) { return a.vertex < b.vertex; });
   std::size_t kept = 0;
   for (std::size_t row = 0; row < triangle_.size(); ++row) {
     if (dropped[row]) continue;
@@ -132,6 +141,11 @@ std::uint32_t Shells::patch_of(std::uint32_t row) {
 
 void Shells::check_edge(std::span<const FacetKey<2>> shared) const {
   const std::uint32_t first = shared[0].slot / 3;
+  const std::array<std::uint32_t, 2>* pair = repeated_at(shared[0]);
+  if (shared.size() % 2 != 0 && pair != nullptr)
+    refuse_solid("the surface of the solid is not closed: triangles " + std::to_string((*pair)[1]) + " and " +
+                 std::to_string((*pair)[0]) + " at " + edge_text(shared[0]) +
+                 " have the same corners, but are no face between two bodies; leave one of them out");
   if (shared.size() == 1)
     refuse_solid("the surface of the solid is open: only triangle " + name(first) + " has " +
                  edge_text(shared[0]));
@@ -139,8 +153,7 @@ void Shells::check_edge(std::span<const FacetKey<2>> shared) const {
     refuse_solid("the surface of the solid is not closed: " + std::to_string(shared.size()) +
                  " triangles, of which the " + "first is " + name(first) + ", share " + edge_text(shared[0]) +
                  "; an even number can");
-  if (shared.size() == 2 && goes_up(shared[0].slot) == goes_up(shared[1].slot) &&
-      !is_of_common_face(shared[0]))
+  if (shared.size() == 2 && goes_up(shared[0].slot) == goes_up(shared[1].slot) && pair == nullptr)
     refuse_solid("the surface of the solid is inside out in a part: triangles " + name(first) + " and " +
                  name(shared[1].slot / 3) + " at " + edge_text(shared[0]) +
                  " have opposite orientations; repair the surface first");

@@ -147,6 +147,12 @@ TEST_CASE("solid: refused surfaces, with the place") {
   add(twice, cube);
   CHECK(contains(refusal(twice), "the surface is there twice"));
 
+  Mesh repeated = cube;
+  repeated.elements.insert(repeated.elements.end(), cube.elements.begin(), cube.elements.begin() + 3);
+  CHECK(contains(refusal(repeated),
+                 "triangles 0 and " + std::to_string(cube.elements.size() / 3) + " at the edge"));
+  CHECK(contains(refusal(repeated), "leave one of them out"));
+
   Mesh flat = cube;
   flat.vertices.insert(flat.vertices.end(), {5, 5, 5, 6, 6, 6, 7, 7, 7});
   const auto last = static_cast<std::uint32_t>(flat.vertex_count());
