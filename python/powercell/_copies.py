@@ -5,9 +5,18 @@ from __future__ import annotations
 from typing import Any
 
 
-def restore_domain(kind: type, name: str, arguments: tuple[Any, ...], crs: Any) -> Any:
-    """A domain by the name of what made it and the arguments of that."""
-    return kind._make(name, arguments, crs)  # type: ignore[attr-defined]
+def restore_domain(kind: type, name: str, arguments: tuple[Any, ...], crs: Any, measure: float) -> Any:
+    """A domain by the name of what made it and the arguments of that.
+
+    Raises
+    ------
+    ValueError
+        The file that it was read from has another measure now.
+    """
+    domain = kind._make(name, arguments, crs)  # type: ignore[attr-defined]
+    if domain.measure != measure:
+        raise ValueError(f"{arguments[0]} has changed since the domain was read from it: read it again")
+    return domain
 
 
 def restore_diagram(kind: type, arguments: dict[str, Any], columns: Any, selection: Any) -> Any:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _looks
+from . import _core
 from ._arrays import Indices, Reals, indices, optional_reals, reals
 from ._copies import device_by_name, restore_diagram
 from ._device import Device, DeviceLike, open_device
@@ -20,9 +18,10 @@ from ._options import diagram_options
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
 from ._progress import Progress, fraction_bar, progress_function
 from ._results import Adjacency, BoundaryWalls, Status
+from ._shown import Shown
 
 
-class Diagram:
+class Diagram(Shown):
     """The power diagram of weighted seeds in a domain.
 
     The cell of seed i is the part of the domain where ``|x - p_i|^2 - w_i`` is least. Results are computed when
@@ -345,67 +344,6 @@ class Diagram:
         given = {"samples": samples, "random_seed": random_seed}
         with fraction_bar(progress, "checking") as report:
             return list(self._core.verify(self._positions, self._weights, given, report))
-
-    def polygons(self) -> list[Any]:
-        """The cells as Shapely geometries, empty where a seed has none. Polygon domains only."""
-        return _looks.polygons(self)
-
-    def plot(self, ax: Any = None, color: Any = None, **style: Any) -> Any:
-        """Draws cells and seeds with matplotlib. Polygon domains only.
-
-        Parameters
-        ----------
-        ax : matplotlib axes, optional
-        color : (n,) array_like or a colour, optional
-            Values mapped to colours, or one colour for all cells.
-        **style
-            Passed to ``PolyCollection``.
-
-        Returns
-        -------
-        matplotlib axes
-        """
-        self._require_all("plot()")
-        return _looks.plot(self, ax, color, style)
-
-    def to_geopandas(self) -> Any:
-        """A GeoDataFrame of the cells, with mass, centroid and status, and the columns and CRS that came in."""
-        self._require_all("to_geopandas()")
-        return _looks.to_geopandas(self)
-
-    def to_pyvista(self) -> Any:
-        """A PyVista mesh of the cells with the arrays ``seed``, ``mass`` and ``weight``."""
-        self._require_all("to_pyvista()")
-        return _looks.to_pyvista(self)
-
-    def to_meshio(self) -> Any:
-        """A meshio mesh of the pieces of the cells with the arrays ``seed`` and ``mass``."""
-        self._require_all("to_meshio()")
-        return _looks.to_meshio(self)
-
-    def to_html(self, path: Union[str, os.PathLike[str]], columns: Optional[Mapping[str, Sequence[Any]]] = None) -> None:
-        """Writes a page for a browser that turns, slices and colours the cells, and shows the row of the one chosen.
-
-        Parameters
-        ----------
-        path : str or path
-            Ends in .html.
-        columns : mapping of str to (n,) sequences, optional
-            Numbers or texts of the seeds, to colour by and to show, as of ``Seeds.columns`` or a data frame. Default:
-            the columns that came in with the seeds.
-
-        Raises
-        ------
-        Error
-            ``unsupported`` above 250,000 seeds in a volume, a million elsewhere.
-        """
-        self._require_all("to_html()")
-        _looks.to_html(self, os.fspath(path), columns)
-
-    def view(self, columns: Optional[Mapping[str, Sequence[Any]]] = None, height: int = 560) -> Any:
-        """The page of :meth:`to_html` within a notebook, ``height`` pixels high."""
-        self._require_all("view()")
-        return _looks.Embedded(self, columns, height)
 
     def _summary(self) -> list[tuple[str, str]]:
         status = self.status

@@ -17,7 +17,7 @@ from ._shapes import crs_of, is_geographic, polygon_parts, surface_arrays, volum
 class Domain:
     """A polygon, surface or volume that a diagram is restricted to. Immutable.
 
-    Pickles and copies: with what it was made from, or with the path of the file that it was read from.
+    It pickles with what it was made from, or with the path of its file, which then must be there and the same.
 
     Made by :meth:`box`, :meth:`lattice`, :meth:`polygon`, :meth:`surface`, :meth:`volume` or
     :func:`read_domain`.
@@ -30,7 +30,7 @@ class Domain:
         self._core = core
         #: Coordinate system of a map, as it came in; None otherwise.
         self.crs = crs
-        self._made_by: tuple[str, tuple[Any, ...]] = ("", ())
+        self._made_by: tuple[str, tuple[Any, ...]]
 
     @classmethod
     def _make(cls, name: str, arguments: tuple[Any, ...], crs: Any = None) -> Domain:
@@ -42,7 +42,7 @@ class Domain:
         return domain
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restore_domain, (type(self), *self._made_by, self.crs)
+        return restore_domain, (type(self), *self._made_by, self.crs, self.measure)
 
     def __copy__(self) -> Domain:
         return self
@@ -291,5 +291,7 @@ def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto", *, degre
             "compute with degrees"
         )
     domain = Domain(loaded.domain, loaded.crs or None)
-    domain._made_by = ("read_domain", (os.path.abspath(path) if os.path.exists(path) else os.fspath(path), kind))
+    name = os.fspath(path)
+    is_file = os.path.splitext(name)[1] != "" and os.path.exists(name)  # "cube" is a shape, whatever files there are
+    domain._made_by = ("read_domain", (os.path.abspath(name) if is_file else name, kind))
     return domain

@@ -14,12 +14,11 @@ from ._shapes import require_same_crs
 
 def _geometry_points(positions: Any, dimension: int) -> Optional[ArrayLike]:
     """The coordinates of points of Shapely: a MultiPoint, or a list or array of points; None for other positions."""
-    points = getattr(positions, "geoms", positions)
-    is_sequence = hasattr(points, "__len__") and hasattr(points, "__getitem__") and not isinstance(points, str)
-    if not is_sequence or len(points) == 0:
+    points = list(positions.geoms) if hasattr(positions, "geoms") else positions
+    is_array = getattr(points, "dtype", None) == object or hasattr(points, "geom_type")  # the latter of GeoPandas
+    if not (isinstance(points, (list, tuple)) or is_array) or getattr(points, "ndim", 1) == 0 or len(points) == 0:
         return None
-    first = points.iloc[0] if hasattr(points, "iloc") else points[0]
-    if getattr(first, "geom_type", "") != "Point":
+    if getattr(next(iter(points)), "geom_type", "") != "Point":
         return None
     wrong = [k for k, point in enumerate(points) if getattr(point, "geom_type", "") != "Point" or point.is_empty]
     if wrong:
