@@ -254,14 +254,16 @@ class PieceClipper final : public HostClipper {
     outside_.assign(1, first);
     inside_.clear();
     side_[first] = 1;
-    for (std::size_t k = 0; k < outside_.size(); ++k)
-      cell_.for_neighbors(outside_[k], [&](std::uint32_t u) {
+    for (std::size_t next = 0; next != outside_.size();) {  // it grows meanwhile
+      const std::uint32_t v = outside_[next++];
+      cell_.for_neighbors(v, [&](std::uint32_t u) {
         if (side_[u] != 0) return;
         int side = side_by_numbers(u, cutter);
         if (side == 0) side = is_outside_exactly(u, cutter) ? 1 : -1;
         side_[u] = static_cast<std::int8_t>(side);
         (side > 0 ? outside_ : inside_).push_back(u);
       });
+    }
     for (const std::uint32_t v : outside_) side_[v] = 0;
     for (const std::uint32_t v : inside_) side_[v] = 0;
     std::sort(outside_.begin(), outside_.end());

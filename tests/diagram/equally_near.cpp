@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <powercell/diagram.hpp>
 #include <string>
 
 #include "tests/support/cgal.hpp"
+#include "tests/support/generators.hpp"
 #include "tests/support/setups.hpp"
 
 using namespace powercell;
