@@ -142,9 +142,10 @@ static inline real take_least(order_t* order, const vertices_t* p, blocks_t bloc
 }
 
 /* Cuts by the seeds of a leaf whose bits are set in `left`, after a test by the vertices if `close`, else by
-   the box of the cell, which is kept up to date. Adds to `misses` how many cut nothing. Returns a CUT code,
-   CUT_NONE when done. */
-static inline int cut_by_leaf(cell_t* cell, blocks_t blocks, uint leaf, uint left, bool close, int* misses) {
+   the box of the cell, which is kept up to date. Returns a CUT code; when done, minus the number of seeds that
+   cut nothing. */
+static inline int cut_by_leaf(cell_t* cell, blocks_t blocks, uint leaf, uint left, bool close) {
+  int misses = 0;
   EACH_LANE(lane) {
     uint bits = left >> lane & ((1u << LANE_WIDTH) - 1);
     if (bits == 0) continue;
@@ -159,23 +160,22 @@ static inline int cut_by_leaf(cell_t* cell, blocks_t blocks, uint leaf, uint lef
         bits &= bits - 1;
         cut = cut_by_seed(cell, (int)j);
         if (cut > CUT_SHRUNK) return cut;
-        *misses += cut == CUT_NONE;
+        misses += cut == CUT_NONE;
       }
       if (cut != CUT_SHRUNK) break;
       if (!close) find_box(&cell->at);
     }
   }
-  return CUT_NONE;
+  return -misses;
 }
 
 /* Cuts by the seeds that are left in the order, leaf by leaf. Returns a CUT code, CUT_NONE when done. */
 static inline int cut_by_left(cell_t* cell, const order_t* order, blocks_t blocks) {
   const real reach = 4 * (1 + SEARCH_MARGIN / 4) * find_radius2(&cell->at);
-  int misses = 0;
   for (uint k = 0; k < order->count; ++k) {
     if (!(order->first[k] < reach)) continue;
     const uint left = seeds_below(order, &cell->at, blocks, k, reach);
-    const int cut = cut_by_leaf(cell, blocks, order->leaf[k], left, true, &misses);
+    const int cut = cut_by_leaf(cell, blocks, order->leaf[k], left, true);
     if (cut > CUT_SHRUNK) return cut;
   }
   return CUT_NONE;

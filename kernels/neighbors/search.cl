@@ -11,9 +11,11 @@
 
 /* After so many nodes, or bisectors that cut nothing, a cell is left to the host: most seeds are about as far
    from one of its vertices, as those of a circle are from its centre, and boxes exclude few of them
-   (docs/mathematics.md (86b)). */
+   (docs/mathematics.md (86b)). One number counts both, since registers are scarce: nodes in the low 16 bits,
+   misses above. The limits are single bits of it. */
 #define VISITS_LIMIT 1024
-#define MISSES_LIMIT 512
+#define ONE_MISS 65536u
+#define MISSES_LIMIT (512 * ONE_MISS)
 #ifndef LEAVES_TO_HOST
 #define LEAVES_TO_HOST 1
 #endif
@@ -99,9 +101,9 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   const near_t near = near_to(tree, blocks, i / TREE_FAN);
   find_box(&cell->at);
   push_root(&stack, tree);
-  for (int visits = 0, misses = 0; stack.depth > 0; ++visits) {
-    const bool close = visits >= VISITS_MOST;
-    if (LEAVES_TO_HOST && (visits >= VISITS_LIMIT || misses >= MISSES_LIMIT)) return CUT_TANGLED;
+  for (uint effort = 0; stack.depth > 0; ++effort) {
+    const bool close = (effort & (ONE_MISS - 1)) >= VISITS_MOST;
+    if (LEAVES_TO_HOST && (effort & (VISITS_LIMIT | MISSES_LIMIT)) != 0) return CUT_TANGLED;
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
     if (level > 0) {
@@ -110,8 +112,9 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
     }
     uint left = (1u << min(TREE_FAN, tree.count - node * TREE_FAN)) - 1;
     if (node == i / TREE_FAN) left &= ~(1u << i % TREE_FAN);
-    const int cut = cut_by_leaf(cell, blocks, node, left, close, &misses);
+    const int cut = cut_by_leaf(cell, blocks, node, left, close);
     if (cut > CUT_SHRUNK) return cut;
+    if (LEAVES_TO_HOST) effort += (uint)-cut * ONE_MISS;
   }
   return CUT_NONE;
 }
