@@ -142,8 +142,8 @@ static inline real take_least(order_t* order, const vertices_t* p, blocks_t bloc
 }
 
 /* Cuts by the seeds of a leaf whose bits are set in `left`, after a test by the vertices if `close`, else by
-   the box of the cell, which is kept up to date. Returns a CUT code; when done, minus the number of seeds that
-   cut nothing. */
+   the box of the cell, which is kept up to date. Returns a CUT code; when done, minus the number of seeds
+   that cut nothing. */
 static inline int cut_by_leaf(cell_t* cell, blocks_t blocks, uint leaf, uint left, bool close) {
   int misses = 0;
   EACH_LANE(lane) {

@@ -56,6 +56,7 @@ from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
+from ._names import show_fields  # noqa: E402
 from ._out_of_core import compute_out_of_core  # noqa: E402
 from ._outside import HiddenSeedsWarning, SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
@@ -66,6 +67,9 @@ from ._saved import SavedDiagram  # noqa: E402
 from ._seeds import Seeds, read_seeds  # noqa: E402
 from ._transport import TransportSolver, transport  # noqa: E402
 from ._treemap import Treemap, treemap  # noqa: E402
+
+for _kind in (member for member in vars(_core).values() if isinstance(member, type)):
+    show_fields(_kind)
 
 __version__: str = _version()
 

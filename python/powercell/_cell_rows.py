@@ -38,11 +38,11 @@ class _Rows:
         return float(self._core.measures.domain_measure)
 
     @property
-    def indptr(self) -> NDArray[np.uint64]:
+    def indptr(self) -> NDArray[np.int64]:
         return self._core.indptr  # type: ignore[no-any-return]
 
     @property
-    def indices(self) -> NDArray[np.uint64]:
+    def indices(self) -> NDArray[Any]:
         return self._core.indices  # type: ignore[no-any-return]
 
     @property
@@ -55,7 +55,7 @@ class _Rows:
             return np.empty((0, 3), np.int32)  # of rows without walls
         return self._core.shift  # type: ignore[no-any-return]
 
-    def neighbors(self, seed: int) -> NDArray[np.uint64]:
+    def neighbors(self, seed: int) -> NDArray[Any]:
         """The ids of the neighbours of one of these seeds, by its place among them."""
         if not 0 <= seed < len(self.indptr) - 1:
             raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
@@ -75,7 +75,7 @@ class DistributedCells(_Rows):
         See :class:`Status`; of duplicates that are as heavy the one of the lowest id on all ranks has the cell.
     domain_measure : float
         Of the whole domain.
-    indptr : (n + 1,) uint64
+    indptr : (n + 1,) int64
         Row i of the walls with other cells is ``indptr[i]`` to ``indptr[i + 1]``.
     indices : (m,) uint64
         Ids of the neighbours, which may be on any rank, ascending in each row.
@@ -86,6 +86,10 @@ class DistributedCells(_Rows):
     report : ExchangeReport
         What ranks sent to each other.
     """
+
+    @property
+    def indices(self) -> NDArray[np.uint64]:
+        return super().indices.view(np.uint64)
 
     @property
     def report(self) -> ExchangeReport:
@@ -110,9 +114,9 @@ class CellRows(_Rows):
         See :class:`Status`.
     domain_measure : float
         Of the whole domain.
-    indptr : (n + 1,) uint64
+    indptr : (n + 1,) int64
         Row i has ``indptr[i + 1] - indptr[i]`` walls with other cells, also where these are left out.
-    indices : (m,) uint64
+    indices : (m,) int64
         Neighbours, by their indices among all seeds, ascending in each row; empty without ``walls=True``.
     data : (m,) float64
         Length or area of the wall, as seen from the cell of the row; likewise.
@@ -137,7 +141,7 @@ class CellRows(_Rows):
     def __len__(self) -> int:
         return len(self.indptr) - 1
 
-    def neighbors(self, seed: int) -> NDArray[np.uint64]:
+    def neighbors(self, seed: int) -> NDArray[Any]:
         """The neighbours of one of these seeds, by its place among them."""
         if not self._walls:
             raise ValueError("walls were only counted; pass walls=True to compute_out_of_core")

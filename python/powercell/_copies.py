@@ -19,10 +19,10 @@ def restore_domain(kind: type, name: str, arguments: tuple[Any, ...], crs: Any, 
     return domain
 
 
-def restore_diagram(kind: type, arguments: dict[str, Any], columns: Any, selection: Any) -> Any:
+def restore_diagram(kind: type, arguments: dict[str, Any], table: Any, selection: Any) -> Any:
     """A diagram by what it was made of. Its results are computed again when they are asked for."""
     diagram = kind(**arguments)
-    diagram._columns = columns
+    diagram._table = table
     if selection is not None:
         diagram.select(selection)
     return diagram

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ._arrays import Reals, reals
 from ._diagram import Diagram
 from ._domain import Domain
+from ._names import named_arguments
 from ._progress import fraction_bar
 
 Density = Union[None, float, str, Callable[..., float], ArrayLike]
@@ -31,6 +32,7 @@ def density_arguments(density: Density, domain: Domain) -> tuple[str, Any]:
     return "nodal", reals(density, "density", (None,), ", one value for each vertex, or an image")
 
 
+@named_arguments
 def integrate(
     diagram: Diagram,
     density: Density = None,

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Indices, Reals, indices, optional_reals, reals
+from ._arrays import Indices, Reals, indices, reals
 from ._copies import device_by_name, restore_diagram
 from ._device import Device, DeviceLike, open_device
 from ._domain import Domain
-from ._frames import checked_seeds
-from ._names import unknown_result
-from ._options import diagram_options
+from ._frames import checked_seeds, checked_values, values_of
+from ._names import named_arguments, unknown_result
+from ._options import diagram_options, float_type
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
 from ._progress import Progress, fraction_bar, progress_function
 from ._results import Adjacency, BoundaryWalls, Status
@@ -64,6 +64,8 @@ class Diagram(Shown):
         changes, in boxes and convex polygons: the same statuses and neighbours, measures equal to 1e-12 of the mean.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
+    dtype : {numpy.float64, numpy.float32}
+        Of measures, centroids and walls in results; those of 32 bits are copies.
 
     Warns
     -----
@@ -89,6 +91,7 @@ class Diagram(Shown):
     ([1, 0], [1.0, 1.0])
     """
 
+    @named_arguments
     def __init__(
         self,
         domain: Domain,
@@ -108,6 +111,7 @@ class Diagram(Shown):
         keep_mesh: bool = False,
         progress: Progress = None,
         radii: Optional[ArrayLike] = None,
+        dtype: Any = np.float64,
     ) -> None:
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
@@ -126,8 +130,8 @@ class Diagram(Shown):
         self.domain = domain
         progress_function(progress)  # refuses what is none
         self._progress = progress
-        points, given, self._columns = checked_seeds(domain, positions, weights, radii)
-        self._device, self._options = device, options
+        points, given, self._table = checked_seeds(domain, positions, weights, radii)
+        self._device, self._options, self._dtype = device, options, float_type(dtype)
         self._core: Any = _core.Diagram(open_device(device), domain._core, options)
         self._set(points, given)
 
@@ -140,9 +144,10 @@ class Diagram(Shown):
 
     def __reduce__(self) -> tuple[Any, ...]:
         options = {**self._options, "device": device_by_name(self._device)}
-        arguments = {"domain": self.domain, "positions": self._positions, "weights": self._weights, **options}
-        return restore_diagram, (type(self), arguments, self._columns, self._selection)
+        arguments = {"domain": self.domain, "positions": self._positions, "weights": self._weights, "dtype": self._dtype, **options}
+        return restore_diagram, (type(self), arguments, self._table, self._selection)
 
+    @named_arguments
     def set_seeds(
         self, positions: ArrayLike, weights: Optional[ArrayLike] = None, *, radii: Optional[ArrayLike] = None
     ) -> None:
@@ -155,7 +160,7 @@ class Diagram(Shown):
         ValueError
             Another number of seeds without weights, where the seeds before had some.
         """
-        points, given, columns = checked_seeds(self.domain, positions, weights, radii)
+        points, given, table = checked_seeds(self.domain, positions, weights, radii)
         if given is None and self._weights is not None and self._weights.any():
             if len(points) != len(self._weights):
                 raise ValueError(
@@ -163,12 +168,12 @@ class Diagram(Shown):
                     "pass weights, or np.zeros(n) for none"
                 )
             given = self._weights
-        self._columns = columns
+        self._table = table
         self._set(points, given)
 
     def set_weights(self, weights: ArrayLike) -> None:
         """New weights for the same positions; only what depends on weights is computed again."""
-        checked = reals(weights, "weights", (len(self._positions),), ", one for each seed")
+        checked = reals(values_of(weights, self._table, "weights"), "weights", (len(self),), ", one for each seed")
         self._core.set_weights(checked)
         self._weights = checked
         self._hidden_known = False
@@ -210,6 +215,7 @@ class Diagram(Shown):
         if self._selection is not None:
             raise ValueError(f"{what} is of all cells, and {len(self._selection)} are selected; call select_all() first")
 
+    @named_arguments
     def compute(self, adjacency: bool = True, cells: bool = False) -> Diagram:
         """Computes the measures, and the adjacency and cells if wanted, in as few passes as possible."""
         with fraction_bar(self._progress, "power diagram") as report:
@@ -239,19 +245,19 @@ class Diagram(Shown):
         return measures
 
     @property
-    def mass(self) -> Reals:
+    def mass(self) -> NDArray[Any]:
         """(n,): area or volume of each cell; 0 where empty."""
-        return self._measures().mass  # type: ignore[no-any-return]
+        return self._measures().mass.astype(self._dtype, copy=False)  # type: ignore[no-any-return]
 
     @property
-    def centroid(self) -> Reals:
+    def centroid(self) -> NDArray[Any]:
         """(n, d): of each cell; NaN where empty."""
-        return self._measures().centroid  # type: ignore[no-any-return]
+        return self._measures().centroid.astype(self._dtype, copy=False)  # type: ignore[no-any-return]
 
     @property
-    def second_moment(self) -> Reals:
+    def second_moment(self) -> NDArray[Any]:
         """(n,): integral of ``|x - p_i|^2`` over each cell."""
-        return self._measures().second_moment  # type: ignore[no-any-return]
+        return self._measures().second_moment.astype(self._dtype, copy=False)  # type: ignore[no-any-return]
 
     @property
     def status(self) -> NDArray[np.uint8]:
@@ -271,7 +277,7 @@ class Diagram(Shown):
     def adjacency(self) -> Adjacency:
         if self._progress:
             self.compute(adjacency=True)
-        return Adjacency(self._core.adjacency(), len(self))
+        return Adjacency(self._core.adjacency(), len(self), self._dtype)
 
     @property
     def boundary_walls(self) -> BoundaryWalls:
@@ -284,7 +290,7 @@ class Diagram(Shown):
         >>> d.boundary_walls.indices.tolist(), d.boundary_walls.data.tolist()
         ([0, 2, 3, 0, 1, 2], [0.5, 0.5, 1.0, 0.5, 1.0, 0.5])
         """
-        return BoundaryWalls(self._core.boundary_walls())
+        return BoundaryWalls(self._core.boundary_walls(), self._dtype)
 
     @property
     def cells(self) -> Any:
@@ -302,7 +308,7 @@ class Diagram(Shown):
         return self._core.joined()
 
     @property
-    def dual(self) -> Indices:
+    def dual(self) -> NDArray[np.int32]:
         """(m, 3 or 4): the regular triangulation restricted to the domain, rows of seed indices."""
         return self._core.dual().simplices  # type: ignore[no-any-return]
 
@@ -330,6 +336,7 @@ class Diagram(Shown):
     def device(self) -> Device:
         return Device._of(self._core.device)
 
+    @named_arguments
     def verify(self, samples: int = 1000, random_seed: int = 1, progress: Progress = None) -> list[Any]:
         """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail.
 
@@ -377,6 +384,7 @@ class Diagram(Shown):
         return f"<table><caption>powercell.Diagram</caption>{rows}</table>"
 
 
+@named_arguments
 def prepare(
     domain: Domain,
     *,
@@ -410,6 +418,7 @@ def prepare(
         _core.prepare(open_device(device), domain._core, options, report)
 
 
+@named_arguments
 def regular_triangulation(
     positions: ArrayLike,
     weights: Optional[ArrayLike] = None,
@@ -418,7 +427,7 @@ def regular_triangulation(
     precision: str = "auto",
     threads: int = 0,
     progress: Progress = None,
-) -> Indices:
+) -> NDArray[np.int32]:
     """The regular triangulation (weighted Delaunay) of seeds in the plane or in space.
 
     Parameters
@@ -428,7 +437,7 @@ def regular_triangulation(
 
     Returns
     -------
-    (m, 3) or (m, 4) uint32
+    (m, 3) or (m, 4) int32
         Positively oriented simplices, rows of seed indices. Seeds in none are hidden or duplicates.
 
     Examples
@@ -440,7 +449,7 @@ def regular_triangulation(
     points = reals(positions, "positions", (None, None))
     if points.shape[1] not in (2, 3):
         raise ValueError(f"positions has the shape {points.shape}; (n, 2) or (n, 3) is expected")
-    given = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+    given = checked_values(weights, positions, len(points), "weights")
     options = diagram_options(precision=precision, threads=threads)
     dual: Any
     with fraction_bar(progress, "triangulation") as report:

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Reals, integers, optional_reals, reals
+from ._arrays import Reals, integers
 from ._cell_rows import DistributedCells
 from ._device import DeviceLike, open_device
 from ._domain import Domain
 from ._errors import Error
+from ._frames import checked_positions, checked_values
+from ._names import named_arguments
 from ._options import diagram_options
 from ._progress import Progress, fraction_bar, progress_function
 
@@ -53,6 +55,7 @@ def _together(comm: Any, check: Callable[[], Any]) -> Any:
     return checked
 
 
+@named_arguments
 def compute_distributed(
     comm: Any,
     domain: Domain,
@@ -129,11 +132,9 @@ def compute_distributed(
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
         progress_function(progress)  # refuses what is none
-        d = domain.dimension
-        where = "in the plane" if d == 2 else "in space"
-        points = reals(positions, "positions", (None, d), f", since the domain is {where}")
+        points = checked_positions(domain, positions)
         named = integers(ids, "ids", (len(points),), np.uint64, ", one for each seed")
-        heavy = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+        heavy = checked_values(weights, positions, len(points), "weights")
         return named, points, heavy, open_device(device)
 
     named, points, heavy, opened = _together(comm, check)

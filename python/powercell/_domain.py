@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import Indices, Reals, reals
 from ._copies import restore_domain
+from ._names import named_arguments
 from ._shapes import crs_of, is_geographic, polygon_parts, surface_arrays, volume_arrays
 
 
@@ -51,6 +52,7 @@ class Domain:
         return self
 
     @classmethod
+    @named_arguments
     def box(
         cls, low: ArrayLike, high: ArrayLike, periodic: Union[bool, Sequence[bool]] = False
     ) -> Domain:
@@ -79,6 +81,7 @@ class Domain:
         return cls._make("box", (first.tolist(), last.tolist(), [bool(axis) for axis in axes]))
 
     @classmethod
+    @named_arguments
     def lattice(cls, vectors: ArrayLike, origin: Optional[ArrayLike] = None) -> Domain:
         """The plane or space modulo a lattice, in any basis.
 
@@ -95,6 +98,7 @@ class Domain:
         return cls._make("lattice", (rows.ravel().tolist(), start))
 
     @classmethod
+    @named_arguments
     def polygon(cls, shape: Any, crs: Any = None, *, degrees: bool = False) -> Domain:
         """A polygon of one or more parts with holes.
 
@@ -118,6 +122,7 @@ class Domain:
         return cls._make("polygon", (polygon_parts(shape),), crs)
 
     @classmethod
+    @named_arguments
     def surface(cls, vertices: Any, triangles: Optional[ArrayLike] = None) -> Domain:
         """A triangle mesh in space: open, closed or non-manifold.
 
@@ -131,6 +136,7 @@ class Domain:
         return cls._make("surface", tuple(surface_arrays(vertices, triangles)))
 
     @classmethod
+    @named_arguments
     def volume(cls, vertices: Any, tetrahedra: Optional[ArrayLike] = None) -> Domain:
         """A tetrahedral mesh.
 
@@ -144,6 +150,7 @@ class Domain:
         return cls._make("volume", tuple(volume_arrays(vertices, tetrahedra)))
 
     @classmethod
+    @named_arguments
     def solid(cls, vertices: Any, triangles: Optional[ArrayLike] = None) -> Domain:
         """The inside of a closed triangle surface, without any tetrahedra.
 
@@ -263,6 +270,7 @@ class Domain:
         return f"<powercell.Domain: {periodic}{self.kind} of {word} {self.measure:.6g}>"
 
 
+@named_arguments
 def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto", *, degrees: bool = False) -> Domain:
     """Reads a domain, or makes a built-in one, as the tool's ``--domain`` does.
 

@@ -47,45 +47,64 @@ def _points_of(positions: Any, dimension: int, crs: Optional[str]) -> ArrayLike:
     return positions.iloc[:, [names.index(axis) for axis in axes]]  # type: ignore[no-any-return]
 
 
-def _values_of(values: Any, positions: Any, name: str) -> Any:
-    """Values for the rows of `positions`: a column by its name, or a series by its labels; others as they are."""
+def is_table(value: Any) -> bool:
+    """Whether its rows have labels, as those of pandas."""
+    return hasattr(getattr(value, "index", None), "equals")  # lists have an `index` too
+
+
+def table_columns(table: Any) -> dict[str, Any]:
+    """The columns of a table, or of None, without its geometry. A series has none."""
+    geometry = getattr(getattr(table, "geometry", None), "name", None)
+    return {key: table[key] for key in getattr(table, "columns", []) if key != geometry}
+
+
+def values_of(values: Any, positions: Any, name: str) -> Any:
+    """A column of `positions` by its name, or a series by its labels; others as they are."""
     if isinstance(values, str):
         if not hasattr(positions, "columns"):
             raise ValueError(f"{name} is {values!r}: only of a table, as of GeoPandas, it may be the name of a column")
         if values not in positions.columns:
             raise ValueError(f"{name} is {values!r}; the columns are {list(positions.columns)}")
         return positions[values]
-    labels: Any = getattr(values, "index", None)
-    rows: Any = getattr(positions, "index", None)
-    if not hasattr(labels, "equals") or not hasattr(rows, "equals") or labels.equals(rows):
+    if not is_table(values) or not is_table(positions) or values.index.equals(positions.index):
         return values
+    labels, rows = values.index, positions.index
     if not (labels.is_unique and rows.is_unique and len(labels) == len(rows) and rows.isin(labels).all()):
         raise ValueError(f"{name} has other labels than positions; pass {name}.to_numpy() if they are in the same order")
     return values.reindex(rows)
 
 
+def checked_values(values: Any, positions: Any, count: int, name: str) -> Optional[Reals]:
+    """Values for the rows of `positions`, which are `count`; None for None."""
+    return optional_reals(values_of(values, positions, name), name, (count,), ", one for each seed")
+
+
+def checked_positions(domain: Domain, positions: Any, name: str = "positions", count: Optional[int] = None) -> Reals:
+    """Positions from an array, a table or geometries; `count` of them, where it is given."""
+    d = domain.dimension
+    given = _points_of(positions, d, domain.crs)
+    return reals(given, name, (count, d), f", since the domain is {'in the plane' if d == 2 else 'in space'}")
+
+
 def checked_seeds(
     domain: Domain, positions: Any, weights: Optional[Any], radii: Optional[Any]
 ) -> tuple[Reals, Optional[Reals], Optional[Any]]:
-    """Positions, weights and, of GeoPandas, the table that they are from.
+    """Positions, weights and, of pandas and GeoPandas, the table that they are from.
 
     Raises
     ------
     ValueError
         An array of the wrong shape or type, by name; weights and radii; a negative radius.
     """
-    d = domain.dimension
     if isinstance(positions, (list, tuple)) and len(positions) == 0:
-        raise ValueError(f"positions is empty; np.empty((0, {d})) is a diagram without seeds")
-    given = _points_of(positions, d, domain.crs)
-    points = reals(given, "positions", (None, d), f", since the domain is {'in the plane' if d == 2 else 'in space'}")
-    columns = positions if given is not positions and hasattr(positions, "geometry") else None
+        raise ValueError(f"positions is empty; np.empty((0, {domain.dimension})) is a diagram without seeds")
+    points = checked_positions(domain, positions)
+    table = positions if is_table(positions) else None
     if radii is not None and weights is not None:
         raise ValueError("weights and radii are given; weights are the squares of radii: pass one of them")
-    shape, why = (len(points),), ", one for each seed"
-    if radii is None:
-        return points, optional_reals(_values_of(weights, positions, "weights"), "weights", shape, why), columns
-    checked = reals(_values_of(radii, positions, "radii"), "radii", shape, why)
+    checked = checked_values(radii, positions, len(points), "radii")
+    if checked is None:
+        return points, checked_values(weights, positions, len(points), "weights"), table
     if (checked < 0).any():
         raise ValueError(f"radii: row {int(np.argmax(checked < 0))} is negative")
-    return points, checked * checked, columns
+    return points, checked * checked, table

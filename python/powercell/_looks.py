@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
+from ._frames import table_columns
 from ._progress import fraction_bar
 
 if TYPE_CHECKING:
@@ -99,10 +100,8 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
 
 def to_geopandas(diagram: Diagram) -> Any:
     geopandas = package("geopandas")
-    given: Any = diagram._columns
-    columns: dict[str, Any] = {}
-    if hasattr(given, "columns"):  # a GeoSeries has none
-        columns = {key: given[key] for key in given.columns if key != given.geometry.name}
+    given: Any = diagram._table
+    columns = table_columns(given)
     centroid = diagram.centroid
     values = {
         "seed": np.arange(len(diagram)),
@@ -208,9 +207,7 @@ def _field(value: Any) -> str:
 
 def to_html(diagram: Diagram, path: str, columns: Optional[Mapping[str, Sequence[Any]]]) -> None:
     if columns is None:
-        given: Any = diagram._columns
-        known = getattr(given, "columns", [])  # a GeoSeries has none
-        columns = {str(key): given[key] for key in known if key != given.geometry.name}
+        columns = table_columns(diagram._table)
     texts = [[_field(value) for value in np.asarray(columns[key], dtype=object)] for key in columns]
     for key, fields in zip(columns, texts):
         if len(fields) != len(diagram):

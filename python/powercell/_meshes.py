@@ -8,10 +8,12 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._device import DeviceLike, optional_device
+from ._names import named_arguments
 from ._progress import Progress, fraction_bar
 from ._shapes import surface_arrays
 
 
+@named_arguments
 def remesh(
     vertices: Any,
     triangles: Optional[ArrayLike] = None,
@@ -76,6 +78,7 @@ def remesh(
         return _core.remesh(points, corners, given, optional_device(device), report)
 
 
+@named_arguments
 def repair(vertices: Any, triangles: Optional[ArrayLike] = None, weld: float = -1.0) -> Any:
     """Mends faults of a triangle mesh that lose nothing of its shape.
 

@@ -19,6 +19,14 @@ def precision_name(precision: Any) -> Any:
     return _PRECISIONS.get(precision, precision)
 
 
+def float_type(dtype: Any) -> Any:
+    """A type of NumPy that results may have."""
+    found = np.dtype(dtype)
+    if found not in (np.float32, np.float64):
+        raise ValueError(f"dtype is {found}; float32 or float64 is expected")
+    return found
+
+
 def diagram_options(
     precision: Any = "auto",
     neighbors: str = "auto",

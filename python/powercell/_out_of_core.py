@@ -15,6 +15,7 @@ from ._core import OutOfCoreReport
 from ._device import DeviceLike, open_device
 from ._domain import Domain
 from ._errors import Error
+from ._names import named_arguments
 from ._options import diagram_options
 from ._progress import Progress, fraction_bar
 
@@ -76,6 +77,7 @@ def _name_of(name: Optional[str], seeds: Sequence[_Rows]) -> str:
     return "; ".join(str(stamp) for stamp in stamps)
 
 
+@named_arguments
 def compute_out_of_core(
     domain: Domain,
     positions: ArrayLike,

@@ -7,13 +7,16 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import Reals, reals
+from ._arrays import Reals
 from ._density import Density, density_arguments
 from ._device import DeviceLike, open_device
 from ._domain import Domain
+from ._frames import checked_positions
+from ._names import named_arguments
 from ._options import diagram_options
 
 
+@named_arguments
 def random_points(domain: Domain, n: int, density: Density = None, *, random_seed: int = 1) -> Reals:
     """Independent random points of a domain with a density; the same random seed gives the same points.
 
@@ -46,6 +49,7 @@ def random_points(domain: Domain, n: int, density: Density = None, *, random_see
     return points  # type: ignore[no-any-return]
 
 
+@named_arguments
 def spacing(
     domain: Domain,
     positions: ArrayLike,
@@ -80,11 +84,12 @@ def spacing(
     >>> round(grid.least, 6)  # (3/4)^(1/4)
     0.930605
     """
-    points = reals(positions, "positions", (None, domain.dimension))
+    points = checked_positions(domain, positions)
     options = diagram_options(precision, threads=threads)
     return _core.spacing(open_device(device), domain._core, points, uniform, options)
 
 
+@named_arguments
 def spectrum(box: Domain, positions: ArrayLike, highest: int = 0, *, threads: int = 0) -> Any:
     """The power spectrum of points in the plane. Random points have the power 1 on average.
 
@@ -110,5 +115,5 @@ def spectrum(box: Domain, positions: ArrayLike, highest: int = 0, *, threads: in
     >>> s.power[1].round(12).tolist()  # of f_y = 0
     [0.0, 2.0, 0.0]
     """
-    points = reals(positions, "positions", (None, 2))
+    points = checked_positions(box, positions)
     return _core.spectrum(box._core, points, {"highest": highest, "threads": threads})

@@ -12,6 +12,7 @@ from ._device import Device
 from ._device_cells import DeviceCells, room_for
 from ._device_results import DeviceAdjacency, DeviceBoundaryWalls, DeviceMeasures, DeviceUncertain, empty
 from ._domain import Domain
+from ._names import named_arguments
 from ._options import diagram_options
 
 PRECISIONS = {"float64": "double", "float32": "float"}
@@ -54,6 +55,7 @@ class DeviceDiagram:
         ``queue`` is something else.
     """
 
+    @named_arguments
     def __init__(
         self,
         domain: Domain,
@@ -94,6 +96,7 @@ class DeviceDiagram:
             self._cores[precision] = core
         return self._cores[precision]
 
+    @named_arguments
     def compute(
         self,
         positions: Any,

@@ -3,23 +3,13 @@
 from __future__ import annotations
 
 import enum
+from functools import cached_property
 from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _looks
-from ._arrays import Reals
-
-
-def _signed(numbers: Any, count: int = 0) -> Any:
-    """The same memory as signed integers, whose differences do not wrap; a copy of 64 bits where that does not fit.
-
-    All numbers are below `count`, unless they have 64 bits.
-    """
-    if numbers.dtype == np.uint64:
-        return numbers.view(np.int64)
-    return numbers.view(np.int32) if count <= 2**31 else numbers.astype(np.int64)
 
 
 class Status(enum.IntEnum):
@@ -41,8 +31,8 @@ class Adjacency:
     indptr : (n + 1,) int64
     indices : (m,) int32
         Neighbours, ascending in each row.
-    data : (m,) float64
-        Length or area of the wall.
+    data : (m,)
+        Length or area of the wall, of the ``dtype`` of the diagram.
     asymmetry : float
         The largest difference of a wall as seen from its two sides, before these were averaged.
     asymmetric : (int, int)
@@ -52,21 +42,23 @@ class Adjacency:
         neighbour moved by ``shift @ periods``.
     """
 
-    def __init__(self, core: Any, seeds: int) -> None:
+    def __init__(self, core: Any, seeds: int, dtype: Any = np.float64) -> None:
         self._core = core
         self._seeds = seeds
+        self._dtype = dtype
 
     @property
     def indptr(self) -> NDArray[np.int64]:
-        return _signed(self._core.indptr)  # type: ignore[no-any-return]
+        return self._core.indptr  # type: ignore[no-any-return]
 
     @property
     def indices(self) -> NDArray[np.int32]:
-        return _signed(self._core.indices, self._seeds)  # type: ignore[no-any-return]
+        found: Any = self._core.indices
+        return found if self._seeds <= 2**31 else found.view(np.uint32).astype(np.int64)  # type: ignore[no-any-return]
 
-    @property
-    def data(self) -> Reals:
-        return self._core.data  # type: ignore[no-any-return]
+    @cached_property
+    def data(self) -> NDArray[Any]:
+        return self._core.data.astype(self._dtype, copy=False)  # type: ignore[no-any-return]
 
     @property
     def shift(self) -> Optional[NDArray[np.int32]]:
@@ -112,25 +104,25 @@ class BoundaryWalls:
     indices : (m,) int32
         Facets, ascending in each row. In a box of space 0 to 5 are -x +x -y +y -z +z, in one of the plane 0 to 3
         are -y +x +y -x; of a solid they are its triangles.
-    data : (m,) float64
-        Length or area of the part of the facet that belongs to the cell.
+    data : (m,)
+        Length or area of the part of the facet that belongs to the cell, of the ``dtype`` of the diagram.
     """
 
-    def __init__(self, core: Any) -> None:
+    def __init__(self, core: Any, dtype: Any = np.float64) -> None:
         self._core = core
-        self._facets = 1 + int(core.indices.max()) if core.indices.size else 0
+        self._dtype = dtype
 
     @property
     def indptr(self) -> NDArray[np.int64]:
-        return _signed(self._core.indptr)  # type: ignore[no-any-return]
+        return self._core.indptr  # type: ignore[no-any-return]
 
     @property
     def indices(self) -> NDArray[np.int32]:
-        return _signed(self._core.indices, self._facets)  # type: ignore[no-any-return]
+        return self._core.indices  # type: ignore[no-any-return]
 
-    @property
-    def data(self) -> Reals:
-        return self._core.data  # type: ignore[no-any-return]
+    @cached_property
+    def data(self) -> NDArray[Any]:
+        return self._core.data.astype(self._dtype, copy=False)  # type: ignore[no-any-return]
 
     def __repr__(self) -> str:
         return f"<powercell.BoundaryWalls of {len(self.indptr) - 1} cells, {len(self.indices)} parts of facets>"

@@ -8,10 +8,11 @@ from typing import Any, Union
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import reals
 from ._density import Density, density_arguments
 from ._device import DeviceLike, open_device
 from ._domain import Domain
+from ._frames import checked_positions
+from ._names import named_arguments
 from ._options import diagram_options
 from ._progress import Progress, step_bar
 
@@ -20,6 +21,7 @@ def _describe(step: Any) -> str:
     return f"gradient {step.gradient:.2e}, hexatic order {step.hexatic:.2f}"
 
 
+@named_arguments
 def sample(
     domain: Domain,
     points: Union[int, ArrayLike],
@@ -74,7 +76,7 @@ def sample(
     try:
         start = operator.index(points)  # type: ignore[arg-type]
     except TypeError:
-        start = reals(points, "points", (None, domain.dimension))
+        start = checked_positions(domain, points, "points")
     else:
         if start < 1:
             raise ValueError(f"points is {start}; at least 1 is expected")

@@ -12,6 +12,7 @@ from . import _core
 from ._arrays import Reals
 from ._domain import Domain
 from ._errors import Error
+from ._names import named_arguments
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,7 @@ def _find_dimension(path: str, weight: str, radius: str) -> int:
     return 2
 
 
+@named_arguments
 def read_seeds(
     path: Union[str, os.PathLike[str]],
     domain: Optional[Domain] = None,

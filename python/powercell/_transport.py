@@ -7,11 +7,13 @@ from typing import Any, Optional
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import optional_reals, reals
+from ._arrays import reals
 from ._density import Density, density_arguments
 from ._device import DeviceLike, open_device
 from ._diagram import Diagram
 from ._domain import Domain
+from ._frames import checked_positions, checked_seeds, checked_values, values_of
+from ._names import named_arguments
 from ._options import diagram_options
 from ._outside import warn_of_seeds_outside
 from ._progress import Progress, step_bar
@@ -28,14 +30,16 @@ class TransportSolver:
     ----------
     domain : Domain
     positions : (n, d) array_like
-    masses : (n,) array_like, optional
-        Target masses, positive. Default: equal ones.
+        Seeds, as for :class:`Diagram`.
+    masses : (n,) array_like or str, optional
+        Target masses, positive. Default: equal ones. A series goes by its labels; of a table the name of a column will
+        do.
     density : number, str, callable or array_like, optional
         Mass per unit of area or volume: a number; a formula in x, y and z; a function of the coordinates, called
         by several threads, one at a time; an (h, w) image that fills the domain's box, its top row first; or
         values at the vertices of a mesh. Default: 1.
-    weights : (n,) array_like, optional
-        Weights to start from.
+    weights : (n,) array_like or str, optional
+        Weights to start from; likewise.
     tolerance : float
         Largest relative error of a mass; 0 for 1e-6 (single precision: 1e-3).
     max_steps : int
@@ -48,6 +52,7 @@ class TransportSolver:
         As for :class:`Diagram`.
     """
 
+    @named_arguments
     def __init__(
         self,
         domain: Domain,
@@ -82,9 +87,8 @@ class TransportSolver:
             "neighbors": neighbors,
             "threads": threads,
         }
-        points = reals(positions, "positions", (None, domain.dimension))
-        start = optional_reals(weights, "weights", (len(points),), ", one for each seed")
-        target = optional_reals(masses, "masses", (len(points),), ", one for each seed")
+        points, start, self._table = checked_seeds(domain, positions, weights, None)
+        target = checked_values(masses, positions, len(points), "masses")
         self._count = len(points)
         self._core = _core.TransportSolver(open_device(device), domain._core, given, options)
         self._core.set_seeds(points, start)
@@ -94,15 +98,15 @@ class TransportSolver:
 
     def move_seeds(self, positions: ArrayLike) -> None:
         """Moves the seeds; the next solve starts from adjusted weights."""
-        self._core.move_seeds(reals(positions, "positions", (self._count, self.domain.dimension)))
+        self._core.move_seeds(checked_positions(self.domain, positions, count=self._count))
 
     def set_masses(self, masses: Optional[ArrayLike]) -> None:
         """Sets the target masses; None for equal ones."""
-        self._core.set_masses(optional_reals(masses, "masses", (self._count,)))
+        self._core.set_masses(checked_values(masses, self._table, self._count, "masses"))
 
     def set_weights(self, weights: ArrayLike) -> None:
         """Sets the weights from which the next solve starts."""
-        self._core.set_weights(reals(weights, "weights", (self._count,)))
+        self._core.set_weights(reals(values_of(weights, self._table, "weights"), "weights", (self._count,)))
 
     def set_tolerance(self, tolerance: float) -> None:
         self._core.set_tolerance(tolerance)
@@ -132,6 +136,7 @@ class TransportSolver:
         positions, weights = self._core.diagram_seeds()
         return Diagram(self.domain, positions, weights, **self._of_diagram)
 
+    @named_arguments
     def solve(self, progress: Progress = None) -> Any:
         """Solves from the current weights.
 

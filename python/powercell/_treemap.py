@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import Reals, reals
 from ._device import DeviceLike, optional_device
+from ._names import named_arguments
 from ._progress import Progress, fraction_bar
 
 
@@ -83,6 +84,7 @@ def _square() -> Reals:
     return np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
+@named_arguments
 def treemap(
     tree: Union[Mapping[str, Any], ArrayLike],
     value: Optional[ArrayLike] = None,

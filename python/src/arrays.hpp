@@ -29,12 +29,27 @@ auto span_of(const Array& array) {
   return std::span(array.data(), array.size());
 }
 
+/// As NumPy has indices and offsets: signed, so that differences do not wrap.
+template <class T>
+struct Shown {
+  using Type = T;
+};
+template <>
+struct Shown<std::uint32_t> {
+  using Type = std::int32_t;
+};
+template <>
+struct Shown<std::uint64_t> {
+  using Type = std::int64_t;
+};
+
 /// A read-only array over the values; `owner` keeps them alive.
 template <class T>
 nb::object view(const T* values, std::vector<std::size_t> shape, nb::handle owner) {
-  static const T none{};  // an empty std::vector may have no address
-  return nb::cast(
-      nb::ndarray<nb::numpy, const T>(values ? values : &none, shape.size(), shape.data(), owner));
+  using Type = typename Shown<T>::Type;
+  static const Type none{};  // an empty std::vector may have no address
+  const Type* const first = values ? reinterpret_cast<const Type*>(values) : &none;
+  return nb::cast(nb::ndarray<nb::numpy, const Type>(first, shape.size(), shape.data(), owner));
 }
 template <class T>
 nb::object view(const std::vector<T>& values, nb::handle owner) {

@@ -34,7 +34,30 @@ void bind_results(nb::module_& m) {
                    [](nb::handle self) { return view(nb::cast<BoundaryWalls&>(self).facet, self); })
       .def_prop_ro("data",
                    [](nb::handle self) { return view(nb::cast<BoundaryWalls&>(self).measure, self); });
-  nb::class_<Cells>(m, "Cells")
+  nb::class_<Cells>(m, "Cells",
+                    R"(The convex pieces of the cells, one for each region of the domain that a cell meets.
+
+Cell i has the pieces ``cell_offset[i]`` to ``cell_offset[i + 1]``. Offsets and indices are int64 and int32.
+
+Attributes
+----------
+dimension, cell_dimension : int
+    Of vertices, and of the pieces: 2 in polygons and on surfaces, 3 in volumes.
+cell_offset : (n + 1,)
+region : (pieces,)
+    The region of the domain in which a piece lies.
+vertex_offset : (pieces + 1,)
+vertices : (v, d) float64
+    In the plane and on surfaces those of a piece go around it counter-clockwise.
+face_offset : (pieces + 1,)
+border : (faces, 2)
+    Kind and index of the other side: 0 the cell of a seed, 1 a facet of the domain, 2 the same cell in another region.
+    In the plane and on surfaces face k is the edge from vertex k to the next.
+shift : (faces, 3) or None
+    In a periodic domain the image of the neighbour, as in :class:`Adjacency`.
+loop_offset : (faces + 1,)
+loop : (l,)
+    In volumes: the corners of each face, counter-clockwise from outside, as indices within the piece's vertices.)")
       .def_ro("dimension", &Cells::dimension)
       .def_ro("cell_dimension", &Cells::cell_dimension)
       .POWERCELL_VECTOR(Cells, cell_offset)
@@ -50,7 +73,39 @@ void bind_results(nb::module_& m) {
       .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<Cells&>(self), self); })
       .POWERCELL_VECTOR(Cells, loop_offset)
       .POWERCELL_VECTOR(Cells, loop);
-  nb::class_<JoinedCells>(m, "JoinedCells")
+  nb::class_<JoinedCells>(m, "JoinedCells", R"(Whole cells, without the faces between their pieces.
+
+Cell i has the vertices ``vertex_offset[i]`` to ``vertex_offset[i + 1]`` and the faces ``face_offset[i]`` to
+``face_offset[i + 1]``. In polygons the faces are its boundary rings, outer ones counter-clockwise and holes
+clockwise; on surfaces its polygon in each triangle; in volumes polygons on its boundary, counter-clockwise seen
+from outside. Offsets and indices are int64 and int32.
+
+Attributes
+----------
+dimension, cell_dimension : int
+    Of vertices, and of the cells: 2 in polygons and on surfaces, 3 in volumes.
+vertex_offset : (n + 1,)
+vertices : (v, d) float64
+face_offset : (n + 1,)
+face_border : (faces, 2)
+    In volumes: kind and index of a face's other side: 0 the cell of a seed, 1 a facet of the domain.
+loop_offset : (faces + 1,)
+loop : (l,)
+    The corners of each face, as indices within the cell's vertices.
+edge_border : (l, 2)
+    In polygons and on surfaces: the same of the edge that starts at each entry of ``loop``; 2 the same cell in
+    another triangle.
+shift : (faces or l, 3) or None
+    In a periodic domain the image of the neighbour, as in :class:`Adjacency`.
+
+Examples
+--------
+>>> import powercell as pc
+>>> cells = pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[0.25, 0.5], [0.75, 0.5]]).joined
+>>> corners = cells.vertices[cells.vertex_offset[1] : cells.vertex_offset[2]]
+>>> ring = cells.loop[cells.loop_offset[1] : cells.loop_offset[2]]
+>>> sorted(corners[ring].tolist())
+[[0.5, 0.0], [0.5, 1.0], [1.0, 0.0], [1.0, 1.0]])")
       .def_ro("dimension", &JoinedCells::dimension)
       .def_ro("cell_dimension", &JoinedCells::cell_dimension)
       .POWERCELL_VECTOR(JoinedCells, vertex_offset)
