@@ -129,26 +129,6 @@ void add_columns(CLI::App& command, InputArguments& arguments) {
       ->group("The table of seeds");
 }
 
-io::DomainArrays read_arrays(const InputArguments& arguments) {
-  if (!arguments.solid) return io::read_domain_arrays(arguments.domain, io::domain_kind(arguments.kind));
-  if (!arguments.kind.empty() && arguments.kind != "surface")
-    throw WrongUsage(fmt::format(
-        "--solid takes the inside of a surface, but --kind is {}; leave one of them out", arguments.kind));
-  const std::optional<DomainKind> kind = io::domain_kind(arguments.kind);
-  io::DomainArrays arrays = io::read_domain_arrays(arguments.domain, kind);
-  const DomainKind found = arrays.kind;
-  try {
-    if (found == DomainKind::volume) arrays = io::read_domain_arrays(arguments.domain, DomainKind::surface);
-  } catch (const Error&) {  // it has no triangles beside its tetrahedra
-  }
-  if (arrays.kind != DomainKind::surface)
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("--solid takes the inside of a closed surface, but {} is a {}; leave --solid out",
-                            arguments.domain, io::name(found)));
-  arrays.solid = true;
-  return arrays;
-}
-
 template <class Function>
 std::vector<double> map_points(const std::vector<double>& points, const Function& function) {
   std::vector<double> mapped;
@@ -213,28 +193,13 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
       ->check(known_words({"random:"}))
       ->default_str(required ? "" : "none")
       ->required(required);
-  command.add_option("--kind", arguments.kind, "For files that can be read as more than one kind of domain")
-      ->check(one_of({"polygon", "surface", "volume"}))
-      ->default_str("the highest dimension that the file has");
-  add_periodic(command, arguments.periodic);
-  command.add_flag(
-      "--solid", arguments.solid,
-      "Take the inside of a closed surface (.off .obj .ply .stl and others) as the domain: measures and "
-      "walls, for --table and --walls");
+  add_domain_options(command, arguments);
   add_columns(command, arguments);
   add_map_options(command, arguments);
 }
 
-void add_periodic(CLI::App& command, std::string& axes) {
-  command.add_flag(
-      "--periodic{xyz}", axes,
-      "Identify opposite sides of the box, square or cube: along all axes, or those given, as in "
-      "--periodic=xz");
-}
-
 Inputs read_inputs(const InputArguments& arguments) {
-  io::DomainArrays arrays = read_arrays(arguments);
-  io::make_periodic(arrays, arguments.periodic, arguments.domain);
+  io::DomainArrays arrays = read_domain_arrays(arguments);
   const int dimension = arrays.kind == DomainKind::polygon ? 2 : 3;
   const bool random = io::is_random_spec(arguments.seeds);
   io::SeedTable seeds;
@@ -270,8 +235,7 @@ Inputs read_inputs(const InputArguments& arguments) {
 io::LoadedDomain read_plane_domain(const InputArguments& arguments, const std::string& way,
                                    const std::function<io::SeedColumns(int dimension)>& columns,
                                    std::vector<std::string>& notes) {
-  io::DomainArrays arrays = read_arrays(arguments);
-  io::make_periodic(arrays, arguments.periodic, arguments.domain);
+  io::DomainArrays arrays = read_domain_arrays(arguments);
   const Georeference place =
       georeference(arguments, arguments.domain, arrays, columns(arrays.kind == DomainKind::polygon ? 2 : 3));
   if (place.frame.plane || place.seeds)

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/domain_choice.hpp"
 #include "apps/georeference.hpp"
-#include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/report.hpp"
 
@@ -17,19 +17,15 @@ class App;
 
 namespace powercell::app {
 
-struct InputArguments : MapArguments {
-  std::string domain, kind, seeds, periodic;
+struct InputArguments : DomainArguments, MapArguments {
+  std::string seeds;
   io::ColumnChoice columns;
   std::string scale_weights;  // a number or "auto"
   bool allow_outside = false;
-  bool solid = false;
 };
 
 /// Adds --domain, --kind, --seeds and the options on their columns and maps.
 void add_inputs(CLI::App& command, InputArguments& arguments, bool required);
-
-/// Adds --periodic[=xyz], which sets `axes`.
-void add_periodic(CLI::App& command, std::string& axes);
 
 /// The coordinates of shifts in tables of walls.
 inline int shift_axes(const Domain& domain) {

@@ -221,9 +221,7 @@ void add_source(CLI::App& command, SourceArguments& source) {
       ->type_name("FILE|SHAPE")
       ->check(known_words(io::builtin_domain_names()))
       ->default_str("the unit square, or the box of the image");
-  command.add_option("--kind", source.kind, "For files that can be read as more than one kind of domain")
-      ->check(one_of({"polygon", "surface", "volume"}))
-      ->default_str("the highest dimension that the file has");
+  add_domain_options(command, source);
   add_density_options(command, source);
   command
       .add_option("--dot-contrast", source.dot_contrast,
@@ -262,7 +260,6 @@ Command add_sample(CLI::App& app) {
                    "lloyd for blue, lbfgs for quantise")
       ->check(one_of({"auto", "lloyd", "lbfgs"}))
       ->capture_default_str();
-  add_periodic(*command, arguments->source.periodic);
   command
       ->add_option("--iterations", arguments->iterations, "Largest number of moves; 0 for the mode's default")
       ->check(not_below_zero())

@@ -26,8 +26,12 @@ Source paper_source(int dimension) {
           {}};
 }
 
-/// The description of a domain; of a map in degrees with a warning, since sampling does not project.
-std::string description_of(const io::LoadedDomain& domain) {
+/// The description of a domain; of a map in degrees with a warning, since sampling does not project, and of a
+/// mesh with what it may have been meant to be.
+std::string description_of(const io::LoadedDomain& domain, const DomainArguments& chosen) {
+  if (domain.domain.kind() == DomainKind::surface && chosen.kind.empty() &&
+      !io::is_builtin_domain(chosen.domain))
+    return domain.description + "; points lie on it (--solid takes its inside)";
   if (!io::is_in_degrees(domain.crs.name)) return domain.description;
   return domain.description +
          fmt::format(
@@ -41,9 +45,9 @@ Source image_source(const SourceArguments& arguments) {
   std::string description = fmt::format("{}: {} x {} pixels", arguments.image, ink.width, ink.height);
   std::optional<Domain> domain;
   if (!arguments.domain.empty()) {
-    io::LoadedDomain loaded = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
+    io::LoadedDomain loaded = io::load_domain(read_domain_arrays(arguments), arguments.domain);
     domain = loaded.domain;
-    description += ", over " + description_of(loaded);
+    description += ", over " + description_of(loaded, arguments);
   } else {
     const std::array<double, 2> low{0, 0};
     domain = Domain::box(low, std::array{static_cast<double>(ink.width), static_cast<double>(ink.height)});
@@ -74,9 +78,14 @@ Source read_source(const SourceArguments& arguments) {
                   "out --image or --periodic");
     return image_source(arguments);
   }
-  const std::string spec = arguments.domain.empty() ? "square" : arguments.domain;
-  const io::LoadedDomain loaded = io::read_domain(spec, io::domain_kind(arguments.kind), arguments.periodic);
-  return {loaded.domain, description_of(loaded), read_density(arguments, loaded.domain), std::nullopt, {}};
+  DomainArguments chosen = arguments;
+  if (chosen.domain.empty()) chosen.domain = "square";
+  const io::LoadedDomain loaded = io::load_domain(read_domain_arrays(chosen), chosen.domain);
+  return {loaded.domain,
+          description_of(loaded, chosen),
+          read_density(arguments, loaded.domain),
+          std::nullopt,
+          {}};
 }
 
 std::vector<double> dot_radii(const Device& device, const Source& source, const SamplingResult& points) {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "apps/density_choice.hpp"
+#include "apps/domain_choice.hpp"
 #include "apps/io/picture_palette.hpp"
 
 namespace powercell::app {
 
-struct SourceArguments : DensityArguments {
-  std::string domain, kind, periodic;
+struct SourceArguments : DomainArguments, DensityArguments {
   double dot_contrast = 0.3;  ///< share of the darkness shown by the sizes of dots instead of their number
   bool color = false;         ///< dots have the colours of the image
   int paper = 0;              ///< 2 or 3 for the experiment of the paper in that dimension

@@ -213,6 +213,25 @@ class Sample(ToolTest):
         self.assertRegex(report["notes"][0], r"of the area lies in parts of \d+ cells")
         self.assertEqual(self.report("sample", "-n", "100", "--domain", "disk")["notes"], [])
 
+    def test_inside_a_closed_surface(self):
+        side = ["1 2 4", "1 4 3", "5 7 8", "5 8 6", "1 5 6", "1 6 2", "3 4 8", "3 8 7", "1 3 7", "1 7 5", "2 6 8",
+                "2 8 4"]
+        corners = [f"v {x} {y} {z}" for z in (0, 2) for y in (0, 3) for x in (0, 5)]
+        self.write("box.obj", "\n".join(corners + [f"f {one}" for one in side]) + "\n")
+        on = self.good("sample", "-n", "40", "--domain", "box.obj", "-o", "on.csv")
+        self.assertIn("points lie on it (--solid takes its inside)", on.stdout)
+        inside = self.good("sample", "-n", "40", "--domain", "box.obj", "--solid", "-o", "in.csv")
+        self.assertIn("box.obj: solid", inside.stdout)
+        for name, total, deep in (("on.csv", 62, False), ("in.csv", 30, True)):
+            rows = self.rows(name)
+            self.assertAlmostEqual(sum(float(row["mass"]) for row in rows), total, delta=1e-4)
+            depth = [min(min(float(row[axis]), high - float(row[axis])) for axis, high in zip("xyz", (5, 3, 2)))
+                     for row in rows]
+            self.assertEqual(max(depth) > 0.5, deep)
+        self.assertNotIn("lie on it", self.good("sample", "-n", "9", "--domain", "box.obj", "--kind", "surface").stdout)
+        self.bad(1, "--solid takes the inside of a closed surface, but square is a polygon", "sample", "--domain",
+                 "square", "--solid")
+
     def test_not_converged_is_reported_and_the_best_kept(self):
         done = run("sample", "-n", "100", "--mode", "quantise", "--movement", "1e-9", "--iterations", "2",
                    "-o", "p.csv", cwd=self.folder)

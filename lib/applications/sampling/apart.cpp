@@ -6,7 +6,6 @@
 
 #include "lib/applications/sampling/nearest.hpp"
 #include "lib/base/disjoint_sets.hpp"
-#include "lib/base/vectors.hpp"
 
 namespace powercell {
 namespace {
@@ -15,20 +14,6 @@ using Vec = Vector3<double>;
 
 // Parts below this share of the mean cell are left out: rounding makes parts without area at edges.
 constexpr double least_part = 1e-6;
-
-/// Measure, and integral of the position.
-struct Moment {
-  double measure = 0;
-  Vec first{};
-  void add(double size, const Vec& centroid) {
-    measure += size;
-    first = first + size * centroid;
-  }
-  void add(const Moment& other) {
-    measure += other.measure;
-    first = first + other.first;
-  }
-};
 
 class Parts {
  public:
@@ -42,29 +27,14 @@ class Parts {
   }
 
   PartsApart measure() {
-    PartsApart result;
     double whole = 0;
     for (const Moment& m : moment_) whole += m.measure;
-    const double least = least_part * whole / static_cast<double>(cells_.cell_count());
-    double sum = 0;
-    for (std::size_t i = 0; i < cells_.cell_count(); ++i) {
-      const double apart = measure_of_cell(i, least);
-      if (apart > 0) ++result.cells;
-      sum += apart;
-    }
-    if (sum > 0) {
-      result.share = sum / whole;
-      result.distance = median_distance(sum);
-    }
-    return result;
+    PartsTally tally(whole, cells_.cell_count());
+    for (std::size_t i = 0; i < cells_.cell_count(); ++i) add_cell(i, tally);
+    return tally.result();
   }
 
  private:
-  /// A part apart from its point.
-  struct Apart {
-    double distance, measure;
-  };
-
   Vec vertex(std::uint64_t v) const {
     const double* x = &cells_.vertices[v * d_];
     return {x[0], x[1], d_ == 3 ? x[2] : 0.0};
@@ -109,45 +79,28 @@ class Parts {
       }
   }
 
-  /// The measure of the parts of cell i apart from its point that are larger than `least`.
-  double measure_of_cell(std::size_t i, double least) {
+  void add_cell(std::size_t i, PartsTally& tally) {
     const std::uint64_t begin = cells_.cell_offset[i], end = cells_.cell_offset[i + 1];
-    if (end - begin < 2) return 0;
+    if (end - begin < 2) return;
     connect(begin, end);
     const auto root = [&](std::uint64_t p) { return sets_.root(static_cast<std::uint32_t>(p)); };
     for (std::uint64_t p = begin; p < end; ++p)  // a root comes before the others of its set
       if (root(p) != p) moment_[root(p)].add(moment_[p]);
     std::vector<std::uint64_t> roots;
-    for (std::uint64_t p = begin; p < end; ++p)
-      if (root(p) == p && moment_[p].measure > least) roots.push_back(p);
-    if (roots.size() < 2) return 0;
-    const auto distance_to_part = [&](std::uint64_t part, const Vec& x) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::uint64_t p = begin; p < end; ++p)
-        if (root(p) == part) nearest = std::min(nearest, norm(nearest_in_piece(cells_, p, x) - x));
-      return nearest;
-    };
+    std::vector<Moment> parts;
+    for (std::uint64_t p = begin; p < end; ++p) {
+      if (root(p) != p) continue;
+      roots.push_back(p);
+      parts.push_back(moment_[p]);
+    }
     Vec point{};
     std::copy_n(&positions_[i * d_], d_, point.begin());
-    const std::uint64_t own =
-        *std::ranges::min_element(roots, {}, [&](std::uint64_t r) { return distance_to_part(r, point); });
-    double sum = 0;
-    for (const std::uint64_t r : roots) {
-      if (r == own) continue;
-      const Moment& m = moment_[r];
-      sum += m.measure;
-      apart_.push_back({distance_to_part(own, (1 / m.measure) * m.first), m.measure});
-    }
-    return sum;
-  }
-
-  /// \param sum  of the measures of the parts apart
-  double median_distance(double sum) {
-    std::ranges::sort(apart_, {}, &Apart::distance);
-    double nearer = 0;
-    for (const Apart& one : apart_)
-      if ((nearer += one.measure) >= sum / 2) return one.distance;
-    return apart_.back().distance;
+    tally.add_cell(parts, point, [&](std::size_t part, const Vec& x) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::uint64_t p = begin; p < end; ++p)
+        if (root(p) == roots[part]) nearest = std::min(nearest, norm(nearest_in_piece(cells_, p, x) - x));
+      return nearest;
+    });
   }
 
   const Cells& cells_;
@@ -156,10 +109,40 @@ class Parts {
   DisjointSets sets_;           // of pieces
   std::vector<Moment> moment_;  // of pieces; of parts, at their roots, once the cell is measured
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_region_;  // region and piece
-  std::vector<Apart> apart_;
 };
 
 }  // namespace
+
+PartsTally::PartsTally(double whole, std::size_t n)
+    : whole_(whole), least_(least_part * whole / static_cast<double>(n)) {}
+
+void PartsTally::add_cell(std::span<const Moment> parts, const Vec& point,
+                          const std::function<double(std::size_t, const Vec&)>& distance) {
+  std::vector<std::size_t> large;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k].measure > least_) large.push_back(k);
+  if (large.size() < 2) return;
+  const std::size_t own =
+      *std::ranges::min_element(large, {}, [&](std::size_t part) { return distance(part, point); });
+  for (const std::size_t part : large) {
+    if (part == own) continue;
+    const double measure = parts[part].measure;
+    apart_.push_back({distance(own, (1 / measure) * parts[part].first), measure});
+  }
+  ++result_.cells;
+}
+
+PartsApart PartsTally::result() {
+  double sum = 0, nearer = 0;
+  for (const Apart& one : apart_) sum += one.measure;
+  if (sum > 0) result_.share = sum / whole_;
+  std::ranges::sort(apart_, {}, &Apart::distance);
+  for (const Apart& one : apart_) {
+    result_.distance = one.distance;
+    if ((nearer += one.measure) >= sum / 2) break;
+  }
+  return result_;
+}
 
 PartsApart parts_apart(const Cells& cells, std::span<const double> positions) {
   return Parts(cells, positions).measure();

@@ -6,6 +6,7 @@
 
 #include "lib/applications/sampling/apart.hpp"
 #include "lib/applications/sampling/nearest.hpp"
+#include "lib/applications/sampling/solid_cells.hpp"
 #include "lib/applications/transport/periodic_domain.hpp"
 
 namespace powercell {
@@ -86,13 +87,21 @@ std::vector<double> SamplingState::in_domain(bool at_centroids) {
   std::vector<double> result = positions_;
   // The cells of a convex domain are convex and contain their centroids.
   if (domain_.is_periodic() || (at_centroids && domain_.region_count() == 1)) return result;
-  const Cells& geometry = solver_.diagram().cells();
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (geometry.cell_offset[i] == geometry.cell_offset[i + 1]) continue;
-    std::array<double, 3> x{};
-    std::copy_n(&positions_[i * dimension_], dimension_, x.begin());
-    x = nearest_in_cell(geometry, i, x);
-    std::copy_n(x.begin(), dimension_, &result[i * dimension_]);
+  const auto project = [&](const auto& geometry, const auto& offset) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (offset[i] == offset[i + 1]) continue;
+      std::array<double, 3> x{};
+      std::copy_n(&positions_[i * dimension_], dimension_, x.begin());
+      x = nearest_in_cell(geometry, i, x);
+      std::copy_n(x.begin(), dimension_, &result[i * dimension_]);
+    }
+  };
+  if (domain_.is_solid()) {
+    const JoinedCells& geometry = solver_.diagram().joined();
+    project(geometry, geometry.face_offset);
+  } else {
+    const Cells& geometry = solver_.diagram().cells();
+    project(geometry, geometry.cell_offset);
   }
   return result;
 }
@@ -116,7 +125,9 @@ double SamplingState::relative_energy() {
 PartsApart SamplingState::parts_apart() {
   // The cells of a convex domain are convex.
   if (options_.periodic || domain_.region_count() == 1) return {};
-  return powercell::parts_apart(solver_.diagram().cells(), positions_);
+  Diagram& diagram = solver_.diagram();
+  return domain_.is_solid() ? powercell::parts_apart(diagram.joined(), positions_)
+                            : powercell::parts_apart(diagram.cells(), positions_);
 }
 
 }  // namespace powercell
