@@ -93,7 +93,6 @@ nlohmann::json as_json(const RunReport& report) {
           {"uncertain", t.uncertain},
           {"on_host", t.on_host},
           {"rounds", t.rounds},
-          {"reused", t.reused},
           {"crs", report.crs},
           {"projection", report.projection},
           {"notes", report.notes},

@@ -20,11 +20,6 @@ std::size_t bytes_of(const std::vector<T>& v) {
   return v.size() * sizeof(T);
 }
 
-/// The size of the steps of a stage that is a loop ("weights-1e-3", "moved-1e-2"), or 0.
-double step_of(const std::string& stage, const std::string& kind) {
-  return stage.starts_with(kind + "-") ? std::stod(stage.substr(kind.size() + 1)) : 0;
-}
-
 class Ours : public Contender {
  public:
   Ours(const Domain& domain, const SeedArray& seeds, const Options& options)
@@ -84,59 +79,6 @@ class Ours : public Contender {
   const SeedArray& seeds_;
   std::vector<double> other_weights_;
   Diagram diagram_;
-};
-
-Options keeping(Options options) {
-  options.keep_mesh = true;
-  return options;
-}
-
-/// A loop: each run follows a small change of the seeds before.
-class OursInLoop : public Contender {
- public:
-  OursInLoop(const Domain& domain, const SeedArray& seeds, const Options& options, double weight_step,
-             double move)
-      : seeds_(seeds), diagram_(device(), domain, keeping(options)), random_(1) {
-    const auto [least, most] = std::minmax_element(seeds.weights.begin(), seeds.weights.end());
-    weight_step_ = weight_step * (*most - *least);
-    move_ = move * test::spacing(domain.measure(), seeds.size(), domain.cell_dimension());
-  }
-
-  /// Until the diagram is kept.
-  void prepare() override {
-    diagram_.set_seeds(seeds_.view());
-    diagram_.compute(true, false);
-    for (int k = 0; k < 3; ++k) {
-      forget();
-      run();
-    }
-  }
-  void forget() override {
-    for (double& w : seeds_.weights) w += random_.uniform(-weight_step_, weight_step_);
-    if (move_ > 0)
-      for (double& x : seeds_.positions) x += random_.uniform(-move_, move_);
-  }
-  void run() override {
-    if (move_ > 0)
-      diagram_.set_seeds(seeds_.view());
-    else
-      diagram_.set_weights(seeds_.weights);
-    diagram_.compute(true, false);
-  }
-  double relative_error() override { return diagram_.measures().relative_error(); }
-  double tolerance() const override { return 1e-11; }
-  std::size_t output_bytes() override {
-    const Measures& m = diagram_.measures();
-    const Adjacency& a = diagram_.adjacency();
-    return bytes_of(m.mass) + bytes_of(m.centroid) + bytes_of(m.second_moment) + bytes_of(m.status) +
-           bytes_of(a.offset) + bytes_of(a.neighbor) + bytes_of(a.wall);
-  }
-
- private:
-  SeedArray seeds_;
-  Diagram diagram_;
-  test::Random random_;
-  double weight_step_, move_;
 };
 
 class Peer : public Contender {
@@ -213,15 +155,9 @@ std::unique_ptr<Contender> our_contender(const std::string& stage, const std::st
   options.neighbors = provider == "flann" ? Neighbors::flann : Neighbors::tree;
   const auto d = static_cast<std::size_t>(domain.dimension());
   const std::array<double, 3> low = domain.low(), high = domain.high();
-  const double weight_step = step_of(stage, "weights"), move = step_of(stage, "moved");
-  std::unique_ptr<Contender> made;
-  if (weight_step > 0 || move > 0)
-    made = std::make_unique<OursInLoop>(domain, seeds, options, weight_step, move);
-  else
-    made = std::make_unique<Ours>(
-        stage == "periodic" ? Domain::periodic_box(std::span(low).first(d), std::span(high).first(d))
-                            : domain,
-        seeds, options);
+  auto made = std::make_unique<Ours>(
+      stage == "periodic" ? Domain::periodic_box(std::span(low).first(d), std::span(high).first(d)) : domain,
+      seeds, options);
   made->stage = stage;
   made->provider = provider;
   made->precision = precision == Precision::float32 ? "float" : "double";

@@ -34,9 +34,8 @@ class Contender {
 
 /// This library. The seeds must outlive the contender, as below.
 /// \param stage "measures", "adjacency" (measures and adjacency) or "weights" (as adjacency, but only the
-/// weights differ from the previous run), "periodic" (as adjacency, in a box with all sides identified),
-/// "weights-STEP" or "moved-STEP" (as adjacency, in a loop: weights have changed by up to STEP of their
-/// range, or coordinates by STEP of the spacing, since the previous run) \param provider "tree" or "flann"
+/// weights differ from the previous run), "periodic" (as adjacency, in a box with all sides identified)
+/// \param provider "tree" or "flann"
 std::unique_ptr<Contender> our_contender(const std::string& stage, const std::string& provider,
                                          Precision precision, const Domain& domain, const SeedArray& seeds);
 

@@ -113,22 +113,6 @@ def memory_rows(results):
                    "150", f"{value:.0f}", verdict(value, 400, 150, True), note)
 
 
-def loop_rows(results):
-    cold = results.fastest(results.select(part="loops", stage="adjacency"))
-    for stage, title, least, aim in (
-            ("weights-1e-3", "new weights, changed by 1e-3 of their range, cube 1e5", 4, 7),
-            ("weights-1e-2", "the same, by 1e-2", 2, 3),
-            ("moved-1e-3", "seeds moved by 1e-3 of their spacing, cube 1e5", 3, 6),
-            ("moved-1e-2", "the same, by 1e-2", 1.5, 2.5)):
-        warm = results.fastest(results.select(part="loops", stage=stage))
-        goal = f"{least} × a cold call", f"{aim} ×"
-        if not (cold and warm):
-            yield title, *goal, "not measured", "–", ""
-            continue
-        value = cold[0] / warm[0]
-        yield title, *goal, f"{value:.2f} ×", verdict(value, least, aim), f"{cold[0]:.3f} s cold, {warm[0]:.3f} s in the loop"
-
-
 def other_rows(results):
     cold = results.fastest(results.select(part="weights", stage="adjacency", provider="tree"))
     warm = results.fastest(results.select(part="weights", stage="weights", provider="tree"))
@@ -163,7 +147,7 @@ def main(arguments):
           "precision. powercell: measures and adjacency, packed tree; peers: volumes only, the fastest of the same "
           "run" + ("; estimated from processor times" if cpu else "") + ".\n")
     print("| workload | at least | aim | measured | reached | |\n|---|---|---|---:|---|---|")
-    for make in (ratio_rows, periodic_rows, growth_rows, memory_rows, loop_rows, other_rows):
+    for make in (ratio_rows, periodic_rows, growth_rows, memory_rows, other_rows):
         for row in make(results):
             print("| " + " | ".join(row) + " |")
 

@@ -2,7 +2,7 @@
 # Measures every goal of this project for speed and memory and prints a Markdown table of goals and measured values. The
 # JSON files are in build/bench/goals/. Takes ten to twenty minutes on two cores.
 #
-#   bench/run_goals.sh [--quick] [--cpu] [ratios|small|periodic|growth|memory|weights|loops|start|gpu]...
+#   bench/run_goals.sh [--quick] [--cpu] [ratios|small|periodic|growth|memory|weights|start|gpu]...
 #
 # --quick omits 1e6 seeds and more. --cpu compares processor times divided by the number of threads instead of wall
 # times: an estimate, for a machine that is busy with other work. If parts are named, only these are measured; the table
@@ -13,7 +13,7 @@ for word in "$@"; do
   case $word in
     --quick) quick=yes ;;
     --cpu) cpu=--cpu ;;
-    ratios | small | periodic | growth | memory | weights | loops | start | gpu) parts="$parts $word" ;;
+    ratios | small | periodic | growth | memory | weights | start | gpu) parts="$parts $word" ;;
     *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
@@ -22,7 +22,7 @@ out=$build/goals
 mkdir -p "$out"
 if [ -z "$parts" ]; then
   rm -f "$out"/*.json
-  parts="ratios small periodic growth memory weights loops start"
+  parts="ratios small periodic growth memory weights start"
 fi
 
 large=1000000 largest2=10000000 largest3=3000000
@@ -68,9 +68,6 @@ for part in $parts; do
     weights)
       run weights weights --domain box3 --distribution white --weights W1 --no-peers \
         --ours adjacency:tree weights:tree --n "$some" --least-rounds 2 ;;
-    loops)
-      run loops loops --domain box3 --distribution white --weights W1 --no-peers --ours adjacency:tree \
-        weights-1e-3:tree weights-1e-2:tree moved-1e-3:tree moved-1e-2:tree --n 100000 --least-rounds 5 ;;
     start) "$matrix" start --part start --out "$out/start.json" --rounds 5 --tool "$build/apps/powercell" ;;
     gpu)
       run gpu gpu --domain box3 --distribution white --weights W0 --no-peers --float --n 10000000 \

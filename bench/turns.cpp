@@ -88,9 +88,7 @@ std::vector<std::unique_ptr<Contender>> contenders(const Work& work, const Domai
     if (colon == std::string::npos)
       throw std::invalid_argument("'" + way + "' does not have the form stage:provider");
     const std::string stage = way.substr(0, colon), provider = way.substr(colon + 1);
-    const bool is_loop = stage.starts_with("weights-") || stage.starts_with("moved-");
-    if ((stage != "measures" && stage != "adjacency" && stage != "weights" && stage != "periodic" &&
-         !is_loop) ||
+    if ((stage != "measures" && stage != "adjacency" && stage != "weights" && stage != "periodic") ||
         (provider != "tree" && provider != "flann"))
       throw std::invalid_argument("'" + way + "' has an unknown stage or provider");
     if (provider == "flann" && !has_flann())

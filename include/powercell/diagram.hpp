@@ -26,8 +26,7 @@ class POWERCELL_API Diagram {
   Diagram& operator=(Diagram&&) noexcept;
   ~Diagram();
 
-  /// Copies the seeds, at most 2^30. As many seeds as before count as the same seeds at new places
-  /// (Options::keep_mesh).
+  /// Copies the seeds, at most 2^30.
   /// \throw Error invalid_argument (sizes), invalid_seed (names the seed: NaN, infinity, or so large that its
   /// square is not finite in the precision)
   void set_seeds(const SeedsView& seeds);

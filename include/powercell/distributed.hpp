@@ -45,7 +45,7 @@ struct DistributedCells {
 struct DistributedOptions {
   /// Of the diagrams on this rank. `precision`, `decisions` and `certify` must be the same on all ranks, the
   /// others may differ. `progress` is called with the fraction of what is clipped at present on this rank;
-  /// where it returns false, the computation ends on all ranks. `keep_mesh` has no effect.
+  /// where it returns false, the computation ends on all ranks.
   Options diagram;
   /// Compute on other ranks than those of the callers: each gets about as many seeds, a range of a Hilbert
   /// curve, for the call, and results go back. For seeds that are not near each other on their rank, or few

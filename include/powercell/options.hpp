@@ -50,16 +50,6 @@ struct Options {
   /// on it, bit for bit.
   std::uint64_t chunk_pairs = 0;
 
-  /// Keep the dual mesh in loops of new weights or places, and repair it for the next diagram instead of
-  /// searching and clipping anew: from the second change on, where seeds move little (Timings::reused).
-  /// Statuses and adjacency are those of a fresh diagram; measures and walls differ from its by rounding:
-  /// measures by up to 2e-13 of the mean cell, walls between nearly parallel ones by up to 1e-9 of the mean
-  /// wall (the most seen in 20,000 updates; mostly some 1e-15). So they depend on the diagrams before. For
-  /// measures and adjacency in boxes and other domains of one convex region, not periodic, in double
-  /// precision with exact decisions; everything else, and seeds that tie, is computed anew. Works on the
-  /// host, which a GPU may outrun, and takes about 900 bytes a seed in space and 300 in the plane.
-  bool keep_mesh = false;
-
   /// Called from time to time with the fraction done in [0, 1], which never falls within a computation;
   /// returning false stops the computation with Error interrupted.
   std::function<bool(double)> progress;

@@ -154,10 +154,6 @@ struct Timings {
   std::uint64_t on_host = 0;     ///< pairs that ended on the host
   std::uint64_t uncertain = 0;   ///< pairs in which rounding may have decided
   int rounds = 0;                ///< rounds of neighbour lists (FLANN)
-  /// Seeds whose cells were computed from the mesh that a diagram in a loop keeps, without a search
-  /// (Options::keep_mesh): all or none. Then `neighbors` is the time to make or repair the mesh, and
-  /// `on_host` counts the cells that had to be clipped by their neighbours there.
-  std::uint64_t reused = 0;
 };
 
 }  // namespace powercell

@@ -30,7 +30,6 @@ Options options_of(const pc_options* options) {
   to.threads = from.threads;
   to.chunk_pairs = from.chunk_pairs;
   to.progress = progress_of(from.progress, from.progress_user);
-  to.keep_mesh = from.keep_mesh != 0;
   return to;
 }
 

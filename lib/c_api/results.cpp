@@ -142,8 +142,7 @@ pc_timings view_of(const Timings& from) {
           from.retried,
           from.on_host,
           from.uncertain,
-          static_cast<std::uint64_t>(from.rounds),
-          from.reused};
+          static_cast<std::uint64_t>(from.rounds)};
 }
 
 }  // namespace powercell::c_api

@@ -36,14 +36,6 @@ class PieceClipper final : public HostClipper {
     return finish(cut_by_all(), moments, rows);
   }
 
-  int clip_by(std::uint32_t rank, std::uint32_t region, std::span<const std::uint32_t> others,
-              std::span<double> moments, PieceBatch& rows) override {
-    start(rank, region);
-    const bool is_left =
-        std::all_of(others.begin(), others.end(), [this](std::uint32_t other) { return cut_by(other); });
-    return finish(is_left, moments, rows);
-  }
-
   double radius() const override { return radius_; }
 
  private:
@@ -325,26 +317,20 @@ std::vector<std::array<double, 4>> pack(const Frame& frame, int dimension, std::
 
 }  // namespace
 
-HostScene make_host_scene(const RegionMesh& mesh, const Frame& frame,
-                          std::vector<std::array<double, 4>> points) {
-  return {&mesh,
-          nullptr,
-          pack(frame, mesh.dimension, mesh.vertices, {}),
-          std::move(points),
-          {},
-          regions_behind(mesh),
-          region_shape(mesh.shape)};
-}
-
 HostScene make_host_scene(const Scene& scene) {
   Frame frame = scene.frame();
   frame.split = false;  // differences of doubles need no shift, and scaling is exact
   frame.centre = {};
   const SeedSet& seeds = scene.seeds;
   const PackedTree& tree = scene.tree;
-  HostScene host =
-      make_host_scene(scene.mesh(), frame, pack(frame, seeds.dimension, seeds.positions, seeds.weights));
-  host.tree = &tree;
+  const RegionMesh& mesh = scene.mesh();
+  HostScene host{&mesh,
+                 &tree,
+                 pack(frame, mesh.dimension, mesh.vertices, {}),
+                 pack(frame, seeds.dimension, seeds.positions, seeds.weights),
+                 {},
+                 regions_behind(mesh),
+                 region_shape(mesh.shape)};
   host.ties_by_position = scene.ties_by_position;
   const auto low = pack(frame, tree.dimension, tree.low, tree.weight);
   const auto high = pack(frame, tree.dimension, tree.high, {});

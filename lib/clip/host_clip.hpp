@@ -44,10 +44,6 @@ struct HostScene {
 
 /// The scene must outlive the result.
 HostScene make_host_scene(const Scene& scene);
-/// A scene without a tree, for HostClipper::clip_by(), with seeds in the units of `frame`. The mesh must
-/// outlive the result.
-HostScene make_host_scene(const RegionMesh& mesh, const Frame& frame,
-                          std::vector<std::array<double, 4>> points);
 
 /// Clips one piece after the other; each thread needs its own.
 class HostClipper {
@@ -57,10 +53,6 @@ class HostClipper {
   /// or _FLAT), writes its 2 + dimension moments and appends its row. \throw Error internal if the result
   /// contradicts itself: a defect (names the seed by its rank)
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;
-  /// The same by the seeds `others` alone, in this order, where it is known that no other one cuts the cell.
-  /// Needs no tree.
-  virtual int clip_by(std::uint32_t rank, std::uint32_t region, std::span<const std::uint32_t> others,
-                      std::span<double> moments, PieceBatch& rows) = 0;
   /// At least the distance of the farthest vertex of the last piece from its seed, if it is not empty.
   virtual double radius() const = 0;
   /// Whether infinitesimals (86) decided anything about the last piece.

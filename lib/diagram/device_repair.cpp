@@ -23,7 +23,7 @@ constexpr auto invalid = static_cast<cl_uint>(DeviceSeedStatus::invalid),
 
 Options repairing(Options options) {
   options.decisions = Decisions::exact;
-  options.certify = options.keep_mesh = false;  // for all cells alone
+  options.certify = false;  // for all cells alone
   return options;
 }
 

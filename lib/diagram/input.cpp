@@ -127,24 +127,4 @@ Input with_weights(const Setup& setup, Input&& input, std::span<const double> we
   return next;
 }
 
-Input with_places(const Setup& setup, const Input& input, const SeedsView& view) {
-  check_seeds(view, setup.domain.dimension(), setup.threads);
-  require_in_range(setup, view);
-  const auto d = static_cast<std::size_t>(view.dimension);
-  Input next;
-  next.is_in_order = false;
-  next.seeds = {
-      view.dimension,    view.size(), std::vector<double>(view.size() * d), std::vector<double>(view.size()),
-      input.seeds.input, {}};
-  const double* const weights = view.weights.empty() ? nullptr : view.weights.data();
-  parallel_for(threads_for(view.size(), setup.threads), view.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t rank = begin; rank < end; ++rank) {
-      const std::size_t i = next.seeds.input[rank];
-      copy_point(&view.positions[i * d], d, &next.seeds.positions[rank * d]);
-      next.seeds.weights[rank] = weights ? weights[i] : 0;
-    }
-  });
-  return next;
-}
-
 }  // namespace powercell

@@ -28,7 +28,6 @@ struct Input {
   SeedSet seeds;
   SeedRows duplicates;                      ///< in the order of SeedSet::duplicate
   std::optional<Unwrapped> unwrapped = {};  ///< in a periodic domain, where the others are wrapped
-  bool is_in_order = true;                  ///< along the Hilbert curve; else as before with_places()
 
   /// All seeds as given, in the caller's order.
   SeedRows given() const;
@@ -51,10 +50,5 @@ std::optional<InputFault> first_fault(const Setup& setup, const SeedsView& seeds
 /// The same seeds with new weights, in the caller's order.
 /// \throw Error invalid_argument (size), invalid_seed; `input` is then unchanged
 Input with_weights(const Setup& setup, Input&& input, std::span<const double> weights);
-
-/// The same seeds with new places and weights, in the caller's order. They keep their ranks, so that they
-/// need not be in Hilbert order any more, and duplicates are not looked for. \pre as many seeds, without
-/// duplicates and not periodic \throw as make_input
-Input with_places(const Setup& setup, const Input& input, const SeedsView& seeds);
 
 }  // namespace powercell

@@ -20,8 +20,7 @@ void log_run(std::size_t seeds, const Timings& t) {
            in_seconds(t.total) + " (prepare " + in_seconds(t.prepare) + ", pairs " + in_seconds(t.pairs) +
            ", neighbours " + in_seconds(t.neighbors) + ", clip " + in_seconds(t.clip) + ", collect " +
            in_seconds(t.collect) + ") and " + in_seconds(t.build) + " of compilation; " +
-           "pieces finished on the host: " + std::to_string(t.on_host) +
-           (t.reused > 0 ? "; from the kept mesh" : "");
+           "pieces finished on the host: " + std::to_string(t.on_host);
   });
 }
 
@@ -29,14 +28,7 @@ void log_run(std::size_t seeds, const Timings& t) {
 
 void Diagram::State::set_seeds(const SeedsView& seeds) {
   const Stopwatch watch(setup.device);
-  const bool same_count = input && seeds.size() == input->seeds.input_count;
-  const bool same_ranks = same_count && loop.has_mesh() && !input->unwrapped;
-  Input next = same_ranks ? with_places(setup, *input, seeds) : make_input(setup, seeds);
-  loop.seeds_changed(same_count, results->measures.has_value());
-  if (same_ranks)
-    loop.places_changed();
-  else
-    loop.ranks_changed();
+  Input next = make_input(setup, seeds);
   retire_active();
   tree.reset();
   input = std::move(next);
@@ -71,8 +63,6 @@ void Diagram::State::set_weights(std::span<const double> weights) {
   const Stopwatch watch(setup.device);
   const bool same_positions = input->seeds.duplicate.empty();
   Input next = with_weights(setup, std::move(*input), weights);
-  loop.seeds_changed(true, results->measures.has_value());
-  if (!same_positions) loop.ranks_changed();
   retire_active();
   if (!same_positions) tree.reset();
   input = std::move(next);
@@ -100,13 +90,6 @@ Plan& Diagram::State::plan(PlanKind kind) {
 void Diagram::State::make_active() {
   if (active) return;
   const Stopwatch watch(setup.device);
-  // Measures from the mesh prove that nothing ties, so that the order does not matter.
-  if (!input->is_in_order && !results->measures) {
-    const SeedRows given = input->given();
-    input = make_input(setup, {setup.domain.dimension(), given.positions, given.weights});
-    loop.ranks_changed();
-    tree.reset();
-  }
   active.emplace(setup, *input, seed_buffers, std::exchange(tree, std::nullopt));
   timings.prepare += watch.seconds();
 }
@@ -203,15 +186,6 @@ void Diagram::State::compute_in_solid(Wanted want) {
   if (all.joined) results->joined = select_rows(*all.joined, *selection);
 }
 
-bool Diagram::State::compute_from_mesh(Wanted want) {
-  if (want.cells || selection || active) return false;
-  std::optional<KeptDiagram::Results> computed = loop.compute(setup, *input, want.adjacency, timings);
-  if (!computed) return false;
-  if (!results->measures) results->measures = std::move(computed->measures);
-  if (computed->adjacency) results->adjacency = std::move(computed->adjacency);
-  return true;
-}
-
 void Diagram::State::compute(Wanted want) {
   want.adjacency = want.adjacency && !results->adjacency;
   want.cells = want.cells && !results->cells && !(setup.domain.is_solid() && results->joined);
@@ -222,8 +196,7 @@ void Diagram::State::compute(Wanted want) {
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   const Stopwatch watch(setup.device);
   setup.progress->begin_computation();
-  timings.reused = 0;
-  if (!compute_from_mesh(want)) compute_missing(want);
+  compute_missing(want);
   if (setup.options.certify) certify();
   timings.build = setup.device.build_seconds() - built_before;
   timings.total = prepared + watch.seconds();

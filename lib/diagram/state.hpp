@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lib/diagram/clip.hpp"
-#include "lib/diagram/loop.hpp"
 
 namespace powercell {
 
@@ -38,7 +37,6 @@ struct Diagram::State {
   SeedBuffers seed_buffers;
   std::optional<KeptTree> tree;  // of the last active seeds, while the positions are the same
   Workspace workspace;
-  Loop loop;
 
   State(Device device, Domain domain, Options options)
       : setup(std::move(device), std::move(domain), std::move(options)),
@@ -61,8 +59,6 @@ struct Diagram::State {
   /// Discards everything that depends on the seeds, except their tree.
   void retire_active();
   void make_active();
-  /// From the mesh kept from earlier seeds, if it can be. \return whether it was
-  bool compute_from_mesh(Wanted want);
   Plan& plan(PlanKind kind);
   /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
   void pass(PlanKind kind, Wanted want);

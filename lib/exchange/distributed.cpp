@@ -42,7 +42,6 @@ DistributedCells compute(RankPost& post, const Device& device, const Domain& dom
                          DistributedOptions options) {
   require_same_call(domain, options, post);
   require_supported(domain, options.diagram);
-  options.diagram.keep_mesh = false;  // for all seeds alone
   Diagram::State diagram(device, domain, options.diagram);
   require_valid(diagram.setup, {&own, 1}, post);
   DistributedCells cells;

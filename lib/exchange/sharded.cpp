@@ -34,7 +34,6 @@ class LocalPost : public Post {
 ShardedDiagram compute_shards(const Device& device, const Domain& domain, std::span<const ShardSeeds> shards,
                               Options options, const Guess& guess) {
   require_supported(domain, options);
-  options.keep_mesh = false;  // for all seeds alone
   Diagram::State diagram(device, domain, options);
   LocalPost post(shards.size());
   require_valid(diagram.setup, shards, post);

@@ -52,7 +52,6 @@ class Fraction {
 
 Options options_of_pieces(const OutOfCoreOptions& options, Fraction& fraction) {
   Options diagram = options.diagram;
-  diagram.keep_mesh = false;  // for all seeds alone
   if (diagram.progress) diagram.progress = [&fraction](double done) { return fraction.report(done); };
   return diagram;
 }

@@ -59,9 +59,6 @@ class Diagram(Shown):
         FLANN: the height eta of the lift ``sqrt(eta - w)``, at least the largest weight, which is the default.
     twin_queries : bool
         FLANN: query with the twin of a lifted seed instead of the seed itself.
-    keep_mesh : bool
-        In loops of :meth:`set_weights`, or of :meth:`set_seeds` with as many seeds, repair the last diagram where little
-        changes, in boxes and convex polygons: the same statuses and neighbours, measures equal to 1e-12 of the mean.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
     dtype : {numpy.float64, numpy.float32}
@@ -108,7 +105,6 @@ class Diagram(Shown):
         initial_neighbors: int = 0,
         lift_eta: Optional[float] = None,
         twin_queries: bool = True,
-        keep_mesh: bool = False,
         progress: Progress = None,
         radii: Optional[ArrayLike] = None,
         dtype: Any = np.float64,
@@ -125,7 +121,6 @@ class Diagram(Shown):
             initial_neighbors,
             lift_eta,
             twin_queries,
-            keep_mesh,
         )
         self.domain = domain
         progress_function(progress)  # refuses what is none

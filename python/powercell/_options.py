@@ -37,7 +37,6 @@ def diagram_options(
     initial_neighbors: int = 0,
     lift_eta: Optional[float] = None,
     twin_queries: bool = True,
-    keep_mesh: bool = False,
 ) -> dict[str, Any]:
     return {
         "precision": precision_name(precision),
@@ -49,5 +48,4 @@ def diagram_options(
         "initial_neighbors": initial_neighbors,
         "lift_eta": lift_eta,
         "twin_queries": twin_queries,
-        "keep_mesh": keep_mesh,
     }

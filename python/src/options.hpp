@@ -57,7 +57,6 @@ inline Options options_of(const nb::dict& given) {
   options.initial_neighbors = whole<int>(given, "initial_neighbors");
   if (const nb::object eta = given["lift_eta"]; !eta.is_none()) options.lift_eta = nb::cast<double>(eta);
   options.twin_queries = nb::cast<bool>(given["twin_queries"]);
-  options.keep_mesh = nb::cast<bool>(given["keep_mesh"]);
   options.threads = whole<int>(given, "threads");
   options.chunk_pairs = whole<std::uint64_t>(given, "chunk_pairs");
   return options;

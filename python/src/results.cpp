@@ -135,8 +135,7 @@ Examples
       .def_ro("retried", &Timings::retried)
       .def_ro("on_host", &Timings::on_host)
       .def_ro("uncertain", &Timings::uncertain)
-      .def_ro("rounds", &Timings::rounds)
-      .def_ro("reused", &Timings::reused);
+      .def_ro("rounds", &Timings::rounds);
 }
 
 }  // namespace powercell::python

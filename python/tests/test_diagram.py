@@ -358,17 +358,3 @@ def test_saved_diagrams_are_not_trusted(rng, square):
     ):
         with pytest.raises(ValueError, match=part):
             saved(d, **change).verify()
-
-
-def test_a_kept_mesh_is_repaired(rng, cube):
-    positions, weights = rng.random((300, 3)), 1e-3 * rng.random(300)
-    loop = pc.Diagram(cube, positions, weights, keep_mesh=True)
-    assert loop.mass.sum() == pytest.approx(1, abs=1e-12)
-    for _ in range(3):
-        weights = weights + 1e-6 * rng.random(300)
-        loop.set_weights(weights)
-        assert loop.mass.shape == (300,)
-    assert loop.timings.reused == 300
-    fresh = pc.Diagram(cube, positions, weights)
-    np.testing.assert_allclose(loop.mass, fresh.mass, rtol=0, atol=1e-12 / 300)
-    np.testing.assert_array_equal(loop.adjacency.indices, fresh.adjacency.indices)

@@ -21,7 +21,6 @@ namespace {
 Options small_chunks(std::uint64_t pairs = 60) {
   Options options = main_setups().front().options;
   options.chunk_pairs = pairs;
-  options.keep_mesh = false;
   return options;
 }
 

@@ -82,7 +82,6 @@ TEST_CASE("a group of one kind gives the bits of one device on every kind of dom
       if (!is_checked(setup, c.domain)) continue;
       INFO(c.domain.name << ", " << setup.name);
       Options options = setup.options;
-      options.keep_mesh = false;
       Diagram one(setup.device, c.domain.domain, options);
       one.set_seeds(c.seeds.view());
       check_group(group, c, options, AllResults(one));
@@ -94,7 +93,6 @@ TEST_CASE("ties, new weights, new seeds and a selection in a group") {
   const test::Setup& setup = main_setups().front();
   const Device group = opened_again(setup.device, 2);
   Options options = setup.options;
-  options.keep_mesh = false;
   options.chunk_pairs = 90;
   Random random(test_seed());
   SeedArray seeds = grid(10, 3);  // the host decides every cell

@@ -47,7 +47,7 @@ typedef struct pc_distributed_options {
   size_t struct_size; /**< set by pc_distributed_options_init() */
   /** Of the diagrams on this rank; NULL for the defaults. `precision`, `decisions` and `certify` must be the
    * same on all ranks, the others may differ. `progress` is called with the fraction of what is clipped at
-   * present on this rank; where it answers 0, the computation ends on all ranks. `keep_mesh` has no effect.
+   * present on this rank; where it answers 0, the computation ends on all ranks.
    */
   const pc_options* diagram;
   /** Not 0: compute on other ranks than those of the callers. Each gets about as many seeds, a range of a

@@ -43,7 +43,6 @@ typedef struct pc_options {
   uint64_t chunk_pairs; /**< the most (region, seed) pairs on the device at once; 0 lets the library choose */
   pc_progress progress; /**< may be NULL */
   void* progress_user;  /**< passed to progress */
-  int keep_mesh;        /**< not 0: repair the last diagram in loops of small changes (Options::keep_mesh) */
 } pc_options;
 
 /** Sets every option to its default. \param struct_size  sizeof(pc_options) */

@@ -140,7 +140,6 @@ typedef struct pc_timings {
   uint64_t on_host;    /**< pairs that ended on the host */
   uint64_t uncertain;  /**< pairs in which rounding may have decided */
   uint64_t rounds;     /**< rounds of neighbour lists (FLANN) */
-  uint64_t reused;     /**< seeds whose cells come from the mesh that a loop keeps: all or none */
 } pc_timings;
 
 #ifdef __cplusplus
