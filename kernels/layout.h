@@ -99,12 +99,6 @@
 /* Added to the index of a facet of the domain's boundary, among walls: seeds have lower numbers. */
 #define ENTRY_FACET 0x80000000u
 
-/* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it
-   is a plane of the boundary of the domain (kernels/clip/by_cell.cl). */
-#define BORDER_PLANE (1 << 30)
-/* Reals of such a plane: q (3), dw and error of 2 q.y = |q|^2 + dw. */
-#define PLANE_REALS 5
-
 /* Where decisions are left to rounding: a wall that only one of two cells has is no wall if it is at most
    this part of the largest wall of either. */
 #define NEGLIGIBLE_WALL_DOUBLE 1e-9

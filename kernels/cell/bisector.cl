@@ -11,7 +11,6 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
                                 int border) {
   real p[DIMENSION];
   const seed_t seed = cell->at.seeds[cell->at.self];
-  if (old >= BORDER_PLANE) return old;
   if (old >= 0) {
     difference(cell->at.seeds[old], seed, p);
     return norm2(q) > norm2(p) ? border : old;

@@ -83,7 +83,7 @@ static inline bool quickly_certain(const vertices_t* p) {
 static inline void note_gap(vertices_t* p, real sum, real offset, real error, int border) {
   const real clear = -(offset < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -offset */
   const real gap = clear / (2 * sum);
-  const bool closest = gap < p->closest_gap && border >= 0 && border < BORDER_PLANE;
+  const bool closest = gap < p->closest_gap && border >= 0;
   p->gap = least_of(closest ? p->closest_gap : gap, p->gap);
   p->closest_gap = closest ? gap : p->closest_gap;
   p->closest = closest ? border : p->closest;

@@ -67,7 +67,7 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
 /* Whether a face with that border is one of `faces`, a sum of FACES_.... */
 static inline bool is_face_of(const vertices_t* p, int border, uint faces) {
   if (faces == FACES_ALL) return true;
-  if (border >= 0) return border < BORDER_PLANE && (faces & FACES_WALLS) != 0;
+  if (border >= 0) return (faces & FACES_WALLS) != 0;
   return (faces & FACES_BOUNDARY) != 0 && p->behind[~border] == BEHIND_NOTHING;
 }
 

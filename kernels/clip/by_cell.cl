@@ -45,24 +45,9 @@ static inline int clip_by_walls(cell_t* cell, regions_t regions, __global const 
   return PIECE_DONE;
 }
 
-/* Cuts by planes of the boundary of the domain: rows of q (3), dw, and how far the plane may be off
-   (docs/mathematics.md, "Cells at the boundary"). Returns a PIECE status. */
-static inline int clip_by_planes(cell_t* cell, __global const stored_real* plane, uint count) {
-  for (uint k = 0; k < count; ++k, plane += PLANE_REALS) {
-    real q[DIMENSION];
-    for (int c = 0; c < DIMENSION; ++c) q[c] = plane[c];
-    cell->at.blur.position = fmax(cell->at.blur.position, (real)plane[4]);
-    const int cut = cut_by_plane(cell, q, plane[3], BORDER_PLANE + (int)k);
-    if (cut > CUT_SHRUNK) return piece_status(cut);
-  }
-  return PIECE_DONE;
-}
-
-/* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped.
-   Likewise for planes: those pairs have the region around the domain. */
+/* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped. */
 __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS, __global const uint* wall_offset,
-                                  __global const uint* neighbor, __global const uint* plane_offset,
-                                  __global const stored_real* plane) {
+                                  __global const uint* neighbor) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair];
@@ -72,12 +57,9 @@ __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS, __global cons
   const uint first = wall_offset[i], walls = wall_offset[i + 1] - first;
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
-  int result = walls == 0 || walls > WALLS_MOST
-                   ? clip_by_tree(&cell, regions, tree, blocks, i, pair_region[pair])
-                   : clip_by_walls(&cell, regions, seeds, i, pair_region[pair], neighbor + first, walls);
-  const uint first_plane = plane_offset[i];
-  if (result == PIECE_DONE)
-    result =
-        clip_by_planes(&cell, plane + (size_t)first_plane * PLANE_REALS, plane_offset[i + 1] - first_plane);
+  const int result =
+      walls == 0 || walls > WALLS_MOST
+          ? clip_by_tree(&cell, regions, tree, blocks, i, pair_region[pair])
+          : clip_by_walls(&cell, regions, seeds, i, pair_region[pair], neighbor + first, walls);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

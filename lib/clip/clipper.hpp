@@ -53,13 +53,6 @@ struct ClipMemory {
   PieceSet pieces;
 };
 
-/// A pair that the device clips by planes of the boundary, and the host, which does not have them, region by
-/// region.
-struct SplitPair {
-  std::uint32_t pair;
-  std::vector<std::uint32_t> regions;
-};
-
 class Clipper {
  public:
   /// \param outputs  OUTPUT_... of kernels/layout.h
@@ -80,14 +73,12 @@ class Clipper {
   /// self_test_failed, opencl
   void build() { kernel(0); }
 
-  /// The first step of clip(), for callers with split pairs.
+  /// The first step of clip().
   /// \return the pairs, ascending, that finish_on_host() must be called with
   std::vector<std::uint32_t> clip_on_device(std::span<const std::uint32_t> pair_seed,
                                             std::span<const std::uint32_t> pair_region);
   /// The second step of clip().
-  /// \param split  those of `pairs` that are clipped region by region, ascending
-  const PieceSet& finish_on_host(const std::vector<std::uint32_t>& pairs,
-                                 std::span<const SplitPair> split = {});
+  const PieceSet& finish_on_host(const std::vector<std::uint32_t>& pairs);
 
   /// As clip(), with one of capacities() only and without the host: pairs that fail keep the status
   /// PIECE_FULL or PIECE_TANGLED.
@@ -136,11 +127,6 @@ class Clipper {
   bool wants_rows() const;
 
   // clipper_host.cpp
-  /// Appends one row and returns the status.
-  int clip_on_host(HostClipper& host, std::uint32_t pair, const SplitPair* split, std::span<double> moments,
-                   PieceBatch& rows) const;
-  int clip_split(HostClipper& host, const SplitPair& split, std::span<double> moments,
-                 PieceBatch& rows) const;
   /// \param moments  rows of 2 + dimension for `pairs`, ascending
   void change_moments(const List& pairs, std::span<const double> moments);
 

@@ -1,6 +1,5 @@
 // The host's part of a Clipper: pairs that rounding may have decided, and those that fit no capacity.
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <type_traits>
 
@@ -14,12 +13,6 @@ namespace {
 
 /// Pairs of one parallel task.
 constexpr std::size_t pairs_of_task = 64;
-
-const SplitPair* find_split(std::span<const SplitPair> split, std::uint32_t pair) {
-  const auto found = std::lower_bound(split.begin(), split.end(), pair,
-                                      [](const SplitPair& s, std::uint32_t p) { return s.pair < p; });
-  return found != split.end() && found->pair == pair ? &*found : nullptr;
-}
 
 }  // namespace
 
@@ -58,38 +51,7 @@ void Clipper::change_moments(const List& pairs, std::span<const double> moments)
   memory_.moments.write(all.data(), all.size(), first * row);
 }
 
-int Clipper::clip_split(HostClipper& host, const SplitPair& split, std::span<double> moments,
-                        PieceBatch& rows) const {
-  if (rows.face_offset.empty()) rows.face_offset = rows.vertex_offset = {0};
-  const std::size_t row = rows.face_offset.size() - 1;
-  int status = PIECE_EMPTY;
-  std::fill(moments.begin(), moments.end(), 0.0);
-  std::vector<double> part(moments.size());
-  for (const std::uint32_t region : split.regions) {
-    const int of_part = host.clip(pair_seed_[split.pair], region, part, rows);
-    if (of_part == PIECE_EMPTY) continue;
-    if (status != PIECE_DONE) status = of_part;
-    std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
-  }
-  // The rows of the parts become one row of walls; there is no common geometry.
-  rows.repeats = true;
-  rows.face_offset.resize(row + 1);
-  rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));
-  rows.vertex_offset.resize(row + 1);
-  rows.vertex_offset.push_back(
-      static_cast<std::uint32_t>(rows.vertex.size() / static_cast<std::size_t>(scene_.mesh().dimension)));
-  return status;
-}
-
-int Clipper::clip_on_host(HostClipper& host, std::uint32_t pair, const SplitPair* split,
-                          std::span<double> moments, PieceBatch& rows) const {
-  if (!split) return host.clip(pair_seed_[pair], pair_region_[pair], moments, rows);
-  if (split->regions.size() == 1) return host.clip(pair_seed_[pair], split->regions.front(), moments, rows);
-  return clip_split(host, *split, moments, rows);
-}
-
-const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
-                                        std::span<const SplitPair> split) {
+const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs) {
   if (pairs.empty()) return memory_.pieces;
   if (!*host_scene_) *host_scene_ = make_host_scene(scene_);
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
@@ -108,8 +70,8 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
     PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t pair = pairs[k];
-      const int status = clip_on_host(*host, pair, find_split(split, pair),
-                                      std::span(moments).subspan(k * count, count), rows);
+      const int status = host->clip(pair_seed_[pair], pair_region_[pair],
+                                    std::span(moments).subspan(k * count, count), rows);
       tied[k] = host->met_tie();
       memory_.pieces.status[pair] = static_cast<std::uint32_t>(status);
       if (outputs_ & OUTPUT_REACH) memory_.pieces.reach[pair] = host->radius();

@@ -85,9 +85,7 @@ class Pass {
 
 void Pass::complete(ClipChunk& chunk) {
   chunk.clipper->share_host_scene(host_scene_);
-  const PieceSet& pieces = chunk.clipper->finish_on_host(
-      chunk.for_host, plan_.split(setup_, active_, chunk.pair_seed, chunk.pair_region, chunk.for_host));
-  collector_.add(chunk, pieces);
+  collector_.add(chunk, chunk.clipper->finish_on_host(chunk.for_host));
 }
 
 void Pass::clip_all(Timings& timings) {

@@ -34,16 +34,19 @@ std::unique_ptr<Candidates> make_lists([[maybe_unused]] const Setup& setup,
   return nullptr;
 }
 
+std::unique_ptr<Candidates> by_walls(TreeCandidates tree, const CellWalls& walls) {
+  return std::make_unique<CellCandidates>(std::move(tree), walls.offset, walls.neighbor);
+}
+
 /// Clips the unrestricted cells that may meet the boundary first. Their walls determine the regions that each
-/// is then cut by, or planes of the boundary if the domain is convex around the cell. All other cells stay
-/// unrestricted.
+/// is then cut by. All other cells stay unrestricted.
 Plan plan_by_cells(const Setup& setup, const Active& active, Timings& timings) {
   const Scene scene = active.scene();
   Plan plan;
   plan.unrestricted = true;
   setup.progress->begin_part(0, boundary_done);
   const Stopwatch boundary_watch(setup.device);
-  const BoundaryRanks boundary =
+  const std::vector<std::uint32_t> boundary =
       setup.pairs.at_boundary(active.seeds(), active.tree(), active.by_region, setup.options.progress);
   timings.pairs = boundary_watch.seconds();
 
@@ -52,17 +55,15 @@ Plan plan_by_cells(const Setup& setup, const Active& active, Timings& timings) {
   std::unique_ptr<Candidates> lists = make_lists(setup, scene);
   std::optional<TreeCandidates> tree;
   if (!lists) tree.emplace(scene);
-  plan.walls = clip_unrestricted_cells(scene, lists ? *lists : *tree, boundary.ranks, setup.options.progress);
+  const CellWalls walls =
+      clip_unrestricted_cells(scene, lists ? *lists : *tree, boundary, setup.options.progress);
   timings.neighbors = cell_watch.seconds();
 
   setup.progress->begin_part(cells_done, pairs_done);
   const Stopwatch pair_watch(setup.device);
-  const bool planes = tree && !setup.float32() && active.seeds().size() < BORDER_PLANE;
-  plan.pairs = setup.pairs.by_cells(active.seeds(), boundary, plan.walls, planes, setup.options.progress);
+  plan.pairs = setup.pairs.by_cells(active.seeds(), boundary, walls, setup.options.progress);
   timings.pairs += pair_watch.seconds();
-  plan.candidates = lists ? std::move(lists)
-                          : std::make_unique<CellCandidates>(std::move(*tree), plan.walls, plan.pairs.planes);
-  if (plan.pairs.planes.rank.empty()) plan.walls = {};
+  plan.candidates = lists ? std::move(lists) : by_walls(std::move(*tree), walls);
   return plan;
 }
 
@@ -81,7 +82,7 @@ Pairs whole_cells(const Setup& setup, const Active& active, const std::vector<bo
 /// the excluded ones.
 Pairs with_regions(const Setup& setup, const Active& active, const std::vector<std::uint32_t>& by_region,
                    const std::vector<bool>& excluded, const CellWalls& walls) {
-  const Pairs all = setup.pairs.by_cells(active.seeds(), {by_region, by_region}, walls, false);
+  const Pairs all = setup.pairs.by_cells(active.seeds(), by_region, walls);
   Pairs pairs;
   pairs.offset.push_back(0);
   for (std::uint32_t rank = 0; rank < active.seeds().size(); ++rank) {
@@ -135,7 +136,7 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, bool faces, Work
   } else {
     const CellWalls walls = clip_unrestricted_cells(scene, tree, by_region);
     plan.pairs = with_regions(setup, active, by_region, excluded, walls);
-    plan.candidates = std::make_unique<CellCandidates>(std::move(tree), walls, CellPlanes{});
+    plan.candidates = by_walls(std::move(tree), walls);
   }
   timings.neighbors = cell_watch.seconds();
   return plan;
@@ -164,7 +165,7 @@ std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scen
     if (pairs.region.size() > pieces_that_pay * ranks.size() || pairs.region.size() <= few_pairs) {
       TreeCandidates tree(scene);
       const CellWalls walls = clip_unrestricted_cells(scene, tree, ranks, setup.options.progress);
-      return std::make_unique<CellCandidates>(std::move(tree), walls, CellPlanes{});
+      return by_walls(std::move(tree), walls);
     }
   }
   return std::make_unique<RegionCandidates>(scene, pairs.list_offset, pairs.list_seed, pairs.all_listed);
@@ -230,8 +231,8 @@ Plan plan_by_selection(const Setup& setup, const Active& active, const Selection
     if (!plan.candidates) tree.emplace(scene);
     const CellWalls walls = clip_unrestricted_cells(
         scene, tree ? static_cast<Candidates&>(*tree) : *plan.candidates, rank, setup.options.progress);
-    plan.pairs = pairs_of(setup.pairs.by_cells(seeds, {rank, rank}, walls, false), rank);
-    if (tree) plan.candidates = std::make_unique<CellCandidates>(std::move(*tree), walls, CellPlanes{});
+    plan.pairs = pairs_of(setup.pairs.by_cells(seeds, rank, walls), rank);
+    if (tree) plan.candidates = by_walls(std::move(*tree), walls);
   } else {
     const Pairs all = setup.pairs.by_regions(seeds, active.tree(), setup.options.progress);
     plan.pairs = pairs_of(all, rank);
@@ -263,23 +264,6 @@ Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Se
   setup.progress->begin_part(pairs_done, 1);
   timings.pair_count += plan.pairs.region.size();
   return plan;
-}
-
-std::vector<SplitPair> Plan::split(const Setup& setup, const Active& active,
-                                   std::span<const std::uint32_t> pair_seed,
-                                   std::span<const std::uint32_t> pair_region,
-                                   std::span<const std::uint32_t> for_host) const {
-  std::vector<SplitPair> found;
-  const std::vector<std::uint32_t>& cut = pairs.planes.rank;
-  for (const std::uint32_t pair : for_host)
-    if (pair_region[pair] == setup.domain.region_count() &&
-        std::binary_search(cut.begin(), cut.end(), pair_seed[pair]))
-      found.push_back({pair, {}});
-  parallel_for(setup.threads, found.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      found[k].regions = setup.pairs.regions_of(active.seeds(), pair_seed[found[k].pair], walls);
-  });
-  return found;
 }
 
 }  // namespace powercell

@@ -37,15 +37,6 @@ struct Plan {
   /// Cells without pairs, computed from the boundary.
   std::optional<SolidCells> solid;
   ClipStatistics solid_statistics;
-  CellWalls walls;  ///< needed by split(); empty if no cell is cut by planes
-
-  /// The pairs that the host must clip region by region: those of cells cut by planes of the boundary.
-  /// \param pair_seed, pair_region  of a chunk of pairs
-  /// \param for_host  indices into these, ascending
-  std::vector<SplitPair> split(const Setup& setup, const Active& active,
-                               std::span<const std::uint32_t> pair_seed,
-                               std::span<const std::uint32_t> pair_region,
-                               std::span<const std::uint32_t> for_host) const;
 };
 
 /// Larger buffers are freed after a pass, because other work needs the memory.

@@ -84,13 +84,9 @@ std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const
       const std::uint64_t pair = pairs.offset[rank];
       const std::size_t i = seeds.input[rank];
       if (pair == pairs.offset[rank + 1] || pairs.region[pair] < container) continue;
-      const bool cut = std::binary_search(pairs.planes.rank.begin(), pairs.planes.rank.end(), rank);
-      if (cut) location[rank] = Location::unclear;
       if (!(measures.mass[i] > 0)) continue;
       location[rank] = locator.of(&seeds.positions[rank * d], &measures.centroid[i * d], measures.mass[i],
                                   measures.second_moment[i]);
-      // A piece cut by planes of the boundary lies inside, unless regions overlap.
-      if (cut && location[rank] == Location::outside) location[rank] = Location::unclear;
       if (location[rank] != Location::outside) continue;
       clear_cell(measures, i);
     }

@@ -1,8 +1,7 @@
 /// \file
-/// The bounds of a cell: its walls with other cells, and planes of the domain's boundary. Internal.
+/// The walls of cells with other cells. Internal.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,21 +27,6 @@ struct CellWalls {
     return std::span(vertex).subspan(vertex_offset[rank] * d,
                                      (vertex_offset[rank + 1] - vertex_offset[rank]) * d);
   }
-};
-
-/// The plane of a boundary facet, relative to a seed: the domain is where normal . y <= offset.
-struct LocalPlane {
-  std::array<double, 3> normal;  ///< of unit length
-  double offset;
-  double error;  ///< bound for its distance from the true plane within the cell
-};
-
-/// The cells that are cut by planes of the boundary instead of by the regions of the domain
-/// (docs/mathematics.md, "Cells at the boundary").
-struct CellPlanes {
-  std::vector<std::uint32_t> rank;  ///< ascending
-  std::vector<std::uint64_t> end;   ///< per rank: end of its planes
-  std::vector<LocalPlane> plane;
 };
 
 }  // namespace powercell

@@ -1,43 +1,10 @@
 #include "lib/neighbors/tree_candidates.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "lib/cl/quirks.hpp"
 
 namespace powercell {
-namespace {
-
-/// The rows (q, dw, error) that the kernel reads, for the plane 2 q.y = |q|^2 + dw. |q| is about the distance
-/// of the plane, so that nothing cancels.
-std::vector<double> plane_rows(const CellPlanes& planes, double scale) {
-  std::vector<double> rows;
-  for (const LocalPlane& plane : planes.plane) {
-    const double offset = scale * plane.offset, length = std::max(std::abs(offset), 0x1p-20);
-    double q2 = 0;
-    for (const double n : plane.normal) {
-      rows.push_back(n * length);
-      q2 += rows.back() * rows.back();
-    }
-    rows.push_back(2 * offset * length - q2);
-    rows.push_back(scale * plane.error);
-  }
-  return rows;
-}
-
-/// The first plane of each rank, then the number of planes.
-std::vector<std::uint32_t> plane_offsets(const CellPlanes& planes, std::size_t seeds) {
-  std::vector<std::uint32_t> offset;
-  for (std::size_t at = 0; at < planes.rank.size(); ++at)
-    offset.resize(planes.rank[at] + std::size_t{1},
-                  static_cast<std::uint32_t>(at == 0 ? 0 : planes.end[at - 1]));
-  offset.resize(seeds + 1, static_cast<std::uint32_t>(planes.plane.size()));
-  return offset;
-}
-
-}  // namespace
-
 Variant without_cells(const Scene& scene) {
   return {scene.mesh().dimension,
           scene.mesh().cell_dimension,
@@ -113,38 +80,16 @@ std::unique_ptr<Candidates> RegionCandidates::on(const Scene& scene) const {
                                             all_listed_);
 }
 
-CellCandidates::CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes)
-    : TreeCandidates(std::move(tree)),
-      wall_offset_(scene().context()),
-      neighbor_(scene().context()),
-      plane_offset_(scene().context()),
-      plane_(scene().context()) {
-  wall_offset_.upload(walls.offset);
-  neighbor_.upload(walls.neighbor);
-  plane_offset_.upload(plane_offsets(planes, scene().seeds.size()));
-  const std::vector<double> rows = plane_rows(planes, scene().frame().scale);
-  plane_.reserve(rows.size() * sizeof(double));
-  if (!rows.empty()) plane_.write(rows.data(), rows.size() * sizeof(double));
-}
-
-CellCandidates::CellCandidates(TreeCandidates tree, const CellCandidates& other)
-    : TreeCandidates(std::move(tree)),
-      wall_offset_(scene().context()),
-      neighbor_(scene().context()),
-      plane_offset_(scene().context()),
-      plane_(scene().context()) {
-  wall_offset_.upload(other.wall_offset_.download());
-  neighbor_.upload(other.neighbor_.download());
-  plane_offset_.upload(other.plane_offset_.download());
-  std::vector<std::byte> rows(other.plane_.bytes());
-  plane_.reserve(rows.size());
-  other.plane_.read(rows.data(), rows.size());
-  plane_.write(rows.data(), rows.size());
+CellCandidates::CellCandidates(TreeCandidates tree, std::span<const std::uint32_t> wall_offset,
+                               std::span<const std::uint32_t> neighbor)
+    : TreeCandidates(std::move(tree)), wall_offset_(scene().context()), neighbor_(scene().context()) {
+  wall_offset_.upload(wall_offset);
+  neighbor_.upload(neighbor);
 }
 
 void CellCandidates::append_arguments(cl::Kernel& kernel) const {
   TreeCandidates::append_arguments(kernel);
-  kernel.more_args(wall_offset_, neighbor_, plane_offset_, plane_);
+  kernel.more_args(wall_offset_, neighbor_);
 }
 
 std::unique_ptr<Candidates> CellCandidates::for_scene(const Scene& scene) const {
@@ -157,11 +102,12 @@ std::unique_ptr<Candidates> CellCandidates::for_scene(const Scene& scene) const 
       if (other != rank) walls.neighbor.push_back(other);
   }
   walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
-  return std::make_unique<CellCandidates>(TreeCandidates(scene), walls, CellPlanes{});
+  return std::make_unique<CellCandidates>(TreeCandidates(scene), walls.offset, walls.neighbor);
 }
 
 std::unique_ptr<Candidates> CellCandidates::on(const Scene& scene) const {
-  return std::unique_ptr<Candidates>(new CellCandidates(TreeCandidates(scene), *this));
+  return std::make_unique<CellCandidates>(TreeCandidates(scene), wall_offset_.download(),
+                                          neighbor_.download());
 }
 
 }  // namespace powercell

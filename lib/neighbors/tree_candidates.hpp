@@ -3,6 +3,8 @@
 /// Internal.
 #pragma once
 
+#include <span>
+
 #include "lib/neighbors/candidates.hpp"
 #include "lib/neighbors/cell_bounds.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
@@ -55,13 +57,14 @@ class RegionCandidates : public TreeCandidates {
   cl::Buffer<std::uint32_t> list_seed_;
 };
 
-/// Takes the known neighbours of a pair's cell, and the planes of the boundary that cut it, or searches the
-/// tree if they are not known (kernels/clip/by_cell.cl). Pays where a cell meets several regions. For domains
-/// of full dimension, where no other bisector than those of its unrestricted cell cuts a piece.
+/// Takes the known neighbours of a pair's cell, or searches the tree if they are not known
+/// (kernels/clip/by_cell.cl). Pays where a cell meets several regions. For domains of full dimension, where
+/// no other bisector than those of its unrestricted cell cuts a piece.
 class CellCandidates : public TreeCandidates {
  public:
-  /// Uploads walls and planes. \pre planes are for double precision and fewer than BORDER_PLANE seeds
-  CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes);
+  /// Uploads the neighbours: CellWalls::offset, neighbor.
+  CellCandidates(TreeCandidates tree, std::span<const std::uint32_t> wall_offset,
+                 std::span<const std::uint32_t> neighbor);
   std::string_view file() const override { return "clip/by_cell.cl"; }
   std::string_view kernel() const override { return "clip_by_cell_kernel"; }
   void append_arguments(cl::Kernel& kernel) const override;
@@ -69,11 +72,7 @@ class CellCandidates : public TreeCandidates {
   std::unique_ptr<Candidates> on(const Scene& scene) const override;
 
  private:
-  /// Copies the buffers of `other`, of another device.
-  CellCandidates(TreeCandidates tree, const CellCandidates& other);
-
-  cl::Buffer<std::uint32_t> wall_offset_, neighbor_, plane_offset_;
-  cl::RawBuffer plane_;
+  cl::Buffer<std::uint32_t> wall_offset_, neighbor_;
 };
 
 }  // namespace powercell

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <optional>
 #include <powercell/error.hpp>
 
 #include "lib/base/threads.hpp"
@@ -156,55 +155,31 @@ constexpr std::size_t task_size = 64;
 struct Task {
   std::vector<std::uint32_t> regions;  // cell after cell
   std::vector<std::uint64_t> end;      // per cell
-  std::vector<LocalPlane> planes;      // cell after cell
-  std::vector<std::uint64_t> plane_end;
 };
 
 class Worker {
  public:
   explicit Worker(const CellSearchInput& search)
-      : s_(search), cells_(search.mesh, search.groups, search.blocks, search.seeds, search.walls) {
-    if (search.boundary != nullptr) planes_.emplace(*search.boundary);
-  }
+      : walls_(search.walls), cells_(search.mesh, search.groups, search.blocks, search.seeds, search.walls) {}
 
   void run(std::span<const std::uint32_t> ranks, Task& task) {
     for (const std::uint32_t rank : ranks) {
-      hull_.set(s_.walls, rank);
-      if (!find_planes(rank, task)) cells_.find(rank, hull_, task.regions);
+      hull_.set(walls_, rank);
+      cells_.find(rank, hull_, task.regions);
       task.end.push_back(task.regions.size());
-      task.plane_end.push_back(task.planes.size());
     }
   }
 
  private:
-  /// Returns true if the cell has a single pair, with the container.
-  bool find_planes(std::uint32_t rank, Task& task) {
-    if (!planes_ || std::binary_search(s_.ranks.by_region.begin(), s_.ranks.by_region.end(), rank))
-      return false;
-    const double* seed =
-        &s_.seeds.positions[std::size_t{rank} * static_cast<std::size_t>(s_.seeds.dimension)];
-    if (planes_->find(seed, hull_, task.planes) == PlaneSearch::Found::unclear) return false;
-    task.regions.push_back(static_cast<std::uint32_t>(s_.mesh.region_count()));
-    return true;
-  }
-
-  const CellSearchInput& s_;
+  const CellWalls& walls_;
   CellSearch cells_;
-  std::optional<PlaneSearch> planes_;
   CellHull hull_;
 };
-
-/// Row `row` of consecutive rows with these ends.
-template <class Values>
-auto row_of(const Values& values, const std::vector<std::uint64_t>& end, std::size_t row) {
-  const std::uint64_t begin = row == 0 ? 0 : end[row - 1];
-  return std::span(values).subspan(begin, end[row] - begin);
-}
 
 /// The pairs of all ranks in order: those found, and one with the container for each rank not searched.
 Pairs gather(const CellSearchInput& search, const std::vector<Task>& tasks) {
   const auto around = static_cast<std::uint32_t>(search.mesh.region_count());
-  const std::vector<std::uint32_t>& ranks = search.ranks.ranks;
+  const std::span<const std::uint32_t> ranks = search.ranks;
   std::uint64_t total = search.seeds.size() - ranks.size();
   for (const Task& task : tasks) total += task.regions.size();
   Pairs pairs;
@@ -218,13 +193,11 @@ Pairs gather(const CellSearchInput& search, const std::vector<Task>& tasks) {
     fill_up_to(ranks[at]);
     pairs.offset.push_back(pairs.region.size());
     const Task& task = tasks[at / task_size];
-    const auto regions = row_of(task.regions, task.end, at % task_size);
-    pairs.region.insert(pairs.region.end(), regions.begin(), regions.end());
-    const auto planes = row_of(task.planes, task.plane_end, at % task_size);
-    if (planes.empty()) continue;
-    pairs.planes.rank.push_back(ranks[at]);
-    pairs.planes.plane.insert(pairs.planes.plane.end(), planes.begin(), planes.end());
-    pairs.planes.end.push_back(pairs.planes.plane.size());
+    const std::size_t cell = at % task_size;
+    const auto end = [&](std::size_t k) {
+      return task.regions.begin() + static_cast<std::ptrdiff_t>(task.end[k]);
+    };
+    pairs.region.insert(pairs.region.end(), cell == 0 ? task.regions.begin() : end(cell - 1), end(cell));
   }
   fill_up_to(search.seeds.size());
   pairs.offset.push_back(pairs.region.size());
@@ -234,7 +207,7 @@ Pairs gather(const CellSearchInput& search, const std::vector<Task>& tasks) {
 }  // namespace
 
 Pairs search_cells(const CellSearchInput& search) {
-  const std::span<const std::uint32_t> ranks = search.ranks.ranks;
+  const std::span<const std::uint32_t> ranks = search.ranks;
   std::vector<Task> tasks((ranks.size() + task_size - 1) / task_size);
   std::deque<Worker> workers;
   for (int w = 0; w < search.threads; ++w) workers.emplace_back(search);

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_hull.hpp"
 #include "lib/pairs/pair_finder.hpp"
 #include "lib/pairs/wall_loops.hpp"
@@ -57,9 +56,8 @@ struct CellSearchInput {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const RegionBlocks& blocks;
-  const BoundaryPlanes* boundary;  ///< null if cells must not be cut by planes
   const SeedSet& seeds;
-  const BoundaryRanks& ranks;
+  std::span<const std::uint32_t> ranks;
   const CellWalls& walls;
   int threads;
   const std::function<bool(double)>& progress;

@@ -5,7 +5,6 @@
 
 #include "lib/base/threads.hpp"
 #include "lib/domain/outline.hpp"
-#include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_search.hpp"
 #include "lib/pairs/region_search.hpp"
 
@@ -136,9 +135,9 @@ Pairs PairFinder::by_regions(const SeedSet& seeds, const PackedTree& tree,
   return pairs;
 }
 
-BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tree,
-                                      std::span<const std::uint32_t> by_region,
-                                      const std::function<bool(double)>& progress) const {
+std::vector<std::uint32_t> PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                                                   std::span<const std::uint32_t> by_region,
+                                                   const std::function<bool(double)>& progress) const {
   std::vector<bool> marked(seeds.size());
   for (const std::uint32_t rank : by_region) marked[rank] = true;
   std::function<bool(double)> report_start;
@@ -147,31 +146,15 @@ BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tr
       search_regions({boundary().mesh, boundary().groups, seeds, tree, threads_, report_start});
   for (const RankList& list : found.list)
     for (std::uint32_t k = 0; k < list.count; ++k) marked[list.first[k]] = true;
-  BoundaryRanks all;
+  std::vector<std::uint32_t> ranks;
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
-    if (marked[rank]) all.ranks.push_back(rank);
-  all.by_region.assign(by_region.begin(), by_region.end());
-  std::sort(all.by_region.begin(), all.by_region.end());
-  return all;
+    if (marked[rank]) ranks.push_back(rank);
+  return ranks;
 }
 
-Pairs PairFinder::by_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls,
-                           bool planes, const std::function<bool(double)>& progress) const {
-  const bool with_planes = planes && boundary_ && mesh_.shape == RegionShape::tetrahedron;
-  if (with_planes && !planes_)
-    planes_ = mesh_.kept.get<BoundaryPlanes>(
-        [&] { return std::make_shared<BoundaryPlanes>(boundary_->mesh, boundary_->groups); });
-  return search_cells({mesh_, groups(), blocks(), with_planes ? planes_.get() : nullptr, seeds, ranks, walls,
-                       threads_, progress});
-}
-
-std::vector<std::uint32_t> PairFinder::regions_of(const SeedSet& seeds, std::uint32_t rank,
-                                                  const CellWalls& walls) const {
-  CellHull hull;
-  hull.set(walls, rank);
-  std::vector<std::uint32_t> regions;
-  CellSearch(mesh_, *groups_, *blocks_, seeds, walls).find(rank, hull, regions);
-  return regions;
+Pairs PairFinder::by_cells(const SeedSet& seeds, std::span<const std::uint32_t> ranks, const CellWalls& walls,
+                           const std::function<bool(double)>& progress) const {
+  return search_cells({mesh_, groups(), blocks(), seeds, ranks, walls, threads_, progress});
 }
 
 }  // namespace powercell

@@ -27,19 +27,7 @@ struct Pairs {
   std::vector<std::uint64_t> list_offset;  ///< regions + 1
   std::vector<std::uint32_t> list_seed;
   bool all_listed = false;  ///< every region with a pair has a list
-  /// The unrestricted cells that must be cut by planes of the boundary.
-  CellPlanes planes;
 };
-
-/// Cells that may meet the boundary of the domain.
-struct BoundaryRanks {
-  std::vector<std::uint32_t> ranks;      ///< ascending
-  std::vector<std::uint32_t> by_region;  ///< those of them, ascending, that are clipped region by region
-};
-
-namespace pairs {
-class BoundaryPlanes;
-}
 
 /// Finds pairs for one domain. Structures that depend on the regions only are made when first needed, and
 /// kept with the mesh for other finders. Thread-safe only where stated.
@@ -59,26 +47,20 @@ class PairFinder {
   Pairs by_regions(const SeedSet& seeds, const PackedTree& tree,
                    const std::function<bool(double)>& progress = {}) const;
 
-  /// The ranks whose cells can meet the boundary of the domain, and those of `by_region`.
+  /// The ranks whose cells can meet the boundary of the domain, and those of `by_region`, ascending.
   /// \param by_region  in any order
   /// \param progress   called with 0 only; the expensive stage comes later
   /// \throw Error interrupted
-  BoundaryRanks at_boundary(const SeedSet& seeds, const PackedTree& tree,
-                            std::span<const std::uint32_t> by_region,
-                            const std::function<bool(double)>& progress = {}) const;
+  std::vector<std::uint32_t> at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                                         std::span<const std::uint32_t> by_region,
+                                         const std::function<bool(double)>& progress = {}) const;
 
   /// The pairs of cells whose unrestricted walls and vertices are known. A region is left out only if one of
-  /// the walls or one of its facets separates it from the cell. A cell around which the domain is convex has
-  /// one pair, with the container, and planes. There are no lists by region.
-  /// \param ranks   of at_boundary(); all others have one pair, with the container
-  /// \param planes  whether cells may be cut by planes
+  /// the walls or one of its facets separates it from the cell. There are no lists by region.
+  /// \param ranks  ascending; all others have one pair, with the container
   /// \throw Error interrupted
-  Pairs by_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls, bool planes,
+  Pairs by_cells(const SeedSet& seeds, std::span<const std::uint32_t> ranks, const CellWalls& walls,
                  const std::function<bool(double)>& progress = {}) const;
-
-  /// The regions of one cell, found as by by_cells() without planes. Thread-safe after by_cells().
-  std::vector<std::uint32_t> regions_of(const SeedSet& seeds, std::uint32_t rank,
-                                        const CellWalls& walls) const;
 
   /// Point location in the regions; refers to the finder.
   RegionLocator locator() const;
@@ -95,7 +77,6 @@ class PairFinder {
   mutable std::shared_ptr<const RegionGroups> groups_;
   mutable std::shared_ptr<const RegionBlocks> blocks_;
   mutable std::shared_ptr<const Boundary> boundary_;
-  mutable std::shared_ptr<const pairs::BoundaryPlanes> planes_;
 };
 
 }  // namespace powercell

@@ -14,7 +14,7 @@
 namespace powercell {
 namespace {
 
-static_assert(most_seeds_of_diagram <= BORDER_PLANE, "ranks of neighbours are borders below BORDER_PLANE");
+static_assert(most_seeds_of_diagram < ENTRY_FACET, "ranks of neighbours are borders from 0 on, of 32 bits");
 
 /// Index of the first value that is NaN or infinite, or values.size().
 std::size_t first_bad(std::span<const double> values, int threads) {

@@ -57,7 +57,7 @@ void check_same_pieces(const Domain& domain, const SeedArray& input, bool float3
   TreeCandidates by_tree(scene);
   TreeCandidates searched(scene);
   const CellWalls walls = clip_unrestricted_cells(scene, searched, ranks);
-  CellCandidates by_cell(std::move(searched), walls, CellPlanes{});
+  CellCandidates by_cell(std::move(searched), walls.offset, walls.neighbor);
   const Pieces a = clip_all(scene, by_tree, pair_seed, pair_region);
   const Pieces b = clip_all(scene, by_cell, pair_seed, pair_region);
   const double tolerance = (float32 ? 1e-5 : 1e-13) * domain.measure();

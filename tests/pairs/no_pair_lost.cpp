@@ -52,8 +52,7 @@ void check_none_lost(const PairSet& found, const PairSet& expected) {
 /// missing, whatever the neighbours are.
 void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& expected, std::size_t step) {
   CellWalls walls;
-  BoundaryRanks all;
-  std::vector<std::uint32_t>& ranks = all.ranks;
+  std::vector<std::uint32_t> ranks;
   for (std::uint32_t i = 0; i < set.size(); ++i) {
     ranks.push_back(i);
     walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
@@ -62,16 +61,16 @@ void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& e
       if (j != i) walls.neighbor.push_back(j);
   }
   walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
-  const Pairs pairs = PairFinder(mesh, 1).by_cells(set, all, walls, false);
+  const Pairs pairs = PairFinder(mesh, 1).by_cells(set, ranks, walls);
   check_rows(pairs, set.size());
   check_none_lost(as_set(pairs), expected);
-  const Pairs again = PairFinder(mesh, 3).by_cells(set, all, walls, false);
+  const Pairs again = PairFinder(mesh, 3).by_cells(set, ranks, walls);
   CHECK(again.offset == pairs.offset);
   CHECK(again.region == pairs.region);
 
   // Ranks that are not searched have one pair, with the container.
   ranks.erase(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(ranks.size() / 2));
-  const Pairs half = PairFinder(mesh, 1).by_cells(set, all, walls, false);
+  const Pairs half = PairFinder(mesh, 1).by_cells(set, ranks, walls);
   check_rows(half, set.size());
   for (std::size_t i = 0; i < set.size() / 2; ++i) {
     REQUIRE(half.offset[i + 1] == half.offset[i] + 1);
