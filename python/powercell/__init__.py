@@ -69,7 +69,8 @@ from ._transport import TransportSolver, transport  # noqa: E402
 from ._treemap import Treemap, treemap  # noqa: E402
 
 for _kind in (member for member in vars(_core).values() if isinstance(member, type)):
-    show_fields(_kind)
+    if _kind.__name__ not in ("Device", "Diagram", "DeviceDiagram", "Domain", "TransportSolver"):
+        show_fields(_kind)
 
 __version__: str = _version()
 

@@ -51,9 +51,10 @@ class _Rows:
 
     @property
     def shift(self) -> Optional[NDArray[np.int32]]:
-        if self._core.shift is None and self._shifted:
-            return np.empty((0, 3), np.int32)  # of rows without walls
-        return self._core.shift  # type: ignore[no-any-return]
+        shift: Any = self._core.shift
+        if shift is None and self._shifted:
+            shift = np.empty((0, 3), np.int32)  # of rows without walls
+        return None if shift is None else shift[:, : self.centroid.shape[1]]
 
     def neighbors(self, seed: int) -> NDArray[Any]:
         """The ids of the neighbours of one of these seeds, by its place among them."""
@@ -81,7 +82,7 @@ class DistributedCells(_Rows):
         Ids of the neighbours, which may be on any rank, ascending in each row.
     data : (m,) float64
         Length or area of the wall, as seen from the cell of the row.
-    shift : (m, 3) int32 or None
+    shift : (m, d) int32 or None
         In a periodic domain, else None: the image of the neighbour, as in :class:`Adjacency`.
     report : ExchangeReport
         What ranks sent to each other.
@@ -120,7 +121,7 @@ class CellRows(_Rows):
         Neighbours, by their indices among all seeds, ascending in each row; empty without ``walls=True``.
     data : (m,) float64
         Length or area of the wall, as seen from the cell of the row; likewise.
-    shift : (m, 3) int32 or None
+    shift : (m, d) int32 or None
         With ``walls=True`` in a periodic domain, else None: the image of the neighbour, as in :class:`Adjacency`.
     all_walls : int
         Walls of all cells, those of other rows too: what ``indptr`` would end with for all seeds.

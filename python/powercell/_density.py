@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._arrays import Reals, reals
 from ._diagram import Diagram
-from ._domain import Domain
+from ._domain import Domain, require_domain
 from ._names import named_arguments
 from ._progress import fraction_bar
 
@@ -17,6 +17,7 @@ Density = Union[None, float, str, Callable[..., float], ArrayLike]
 
 
 def density_arguments(density: Density, domain: Domain) -> tuple[str, Any]:
+    require_domain(domain)
     if density is None:
         return "constant", 1.0
     if isinstance(density, str):

@@ -11,8 +11,8 @@ from . import _core
 from ._arrays import Indices, Reals, indices, reals
 from ._copies import device_by_name, restore_diagram
 from ._device import Device, DeviceLike, open_device
-from ._domain import Domain
-from ._frames import checked_seeds, checked_values, values_of
+from ._domain import Domain, require_domain
+from ._frames import checked_seeds, checked_values, kept_values, values_of
 from ._names import named_arguments, unknown_result
 from ._options import diagram_options, float_type
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
@@ -33,11 +33,11 @@ class Diagram(Shown):
     domain : Domain
     positions : (n, d) array_like
         Seeds; d is 2 for polygons, 3 for surfaces and volumes. They may lie outside the domain; if
-        most do, that is warned of.
-        Of a table of pandas columns x, y, z go by their names; of GeoPandas its points are taken.
+        most do, that is warned of. Or a table: a DataFrame of pandas with columns x, y (z), or lon, lat; a GeoDataFrame or
+        GeoSeries of points; what :func:`read_seeds` returns, with its weights. Or points of Shapely.
     weights : (n,) array_like or str, optional
-        Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram. A series goes
-        by its labels; of a table the name of a column will do.
+        Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram. Where positions
+        are a table, the name of a column, or a series, which goes by its labels.
     radii : (n,) array_like or str, optional
         In place of weights, which are their squares.
     device : Device, str or list of these, optional
@@ -109,8 +109,7 @@ class Diagram(Shown):
         radii: Optional[ArrayLike] = None,
         dtype: Any = np.float64,
     ) -> None:
-        if not isinstance(domain, Domain):
-            raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+        require_domain(domain)
         options = diagram_options(
             precision,
             neighbors,
@@ -126,6 +125,7 @@ class Diagram(Shown):
         progress_function(progress)  # refuses what is none
         self._progress = progress
         points, given, self._table = checked_seeds(domain, positions, weights, radii)
+        self._by_radii = radii is not None
         self._device, self._options, self._dtype = device, options, float_type(dtype)
         self._core: Any = _core.Diagram(open_device(device), domain._core, options)
         self._set(points, given)
@@ -148,7 +148,7 @@ class Diagram(Shown):
     ) -> None:
         """Replaces the seeds; memory and programs on the device are reused.
 
-        Without weights as many seeds as before keep theirs.
+        Without weights as many seeds as before keep theirs, by their labels where both come from tables.
 
         Raises
         ------
@@ -162,8 +162,8 @@ class Diagram(Shown):
                     f"{len(points)} seeds without weights follow {len(self._weights)} with weights; "
                     "pass weights, or np.zeros(n) for none"
                 )
-            given = self._weights
-        self._table = table
+            given = kept_values(self._weights, self._table, table)
+        self._table, self._by_radii = table, radii is not None
         self._set(points, given)
 
     def set_weights(self, weights: ArrayLike) -> None:
@@ -236,7 +236,7 @@ class Diagram(Shown):
         measures = self._core.measures()
         if not self._hidden_known:
             self._hidden_known = True
-            warn_of_hidden_seeds(self.domain, self.weights, measures.status)
+            warn_of_hidden_seeds(self.domain, self.weights, measures.status, self._by_radii)
         return measures
 
     @property
@@ -272,7 +272,7 @@ class Diagram(Shown):
     def adjacency(self) -> Adjacency:
         if self._progress:
             self.compute(adjacency=True)
-        return Adjacency(self._core.adjacency(), len(self), self._dtype)
+        return Adjacency(self._core.adjacency(), len(self), self.domain.dimension, self._dtype)
 
     @property
     def boundary_walls(self) -> BoundaryWalls:
@@ -309,9 +309,10 @@ class Diagram(Shown):
 
     @property
     def dual_shift(self) -> Optional[NDArray[np.int32]]:
-        """(m, 3 or 4, 3): in a periodic domain the image of each corner of :attr:`dual`, as in
-        :class:`Adjacency`; else None."""
-        return self._core.dual().shift  # type: ignore[no-any-return]
+        """(m, d + 1, d): in a periodic domain the image of each corner of :attr:`dual`, as in :class:`Adjacency`;
+        else None."""
+        shift: Any = self._core.dual().shift
+        return None if shift is None else shift[:, :, : self.domain.dimension]
 
     @property
     def timings(self) -> Any:
@@ -406,8 +407,7 @@ def prepare(
     >>> import powercell as pc
     >>> pc.prepare(pc.Domain.box([0, 0], [1, 1]))
     """
-    if not isinstance(domain, Domain):
-        raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+    require_domain(domain)
     options = diagram_options(precision, neighbors, threads=threads)
     with fraction_bar(progress, "preparing") as report:
         _core.prepare(open_device(device), domain._core, options, report)

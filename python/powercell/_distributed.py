@@ -11,7 +11,7 @@ from . import _core
 from ._arrays import Reals, integers
 from ._cell_rows import DistributedCells
 from ._device import DeviceLike, open_device
-from ._domain import Domain
+from ._domain import Domain, require_domain
 from ._errors import Error
 from ._frames import checked_positions, checked_values
 from ._names import named_arguments
@@ -129,8 +129,7 @@ def compute_distributed(
         raise ValueError("comm is an intercommunicator; an intracommunicator is expected")
 
     def check() -> tuple[NDArray[np.uint64], Reals, Optional[Reals], Any]:
-        if not isinstance(domain, Domain):
-            raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+        require_domain(domain)
         progress_function(progress)  # refuses what is none
         points = checked_positions(domain, positions)
         named = integers(ids, "ids", (len(points),), np.uint64, ", one for each seed")

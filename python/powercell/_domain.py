@@ -113,7 +113,10 @@ class Domain:
         degrees : bool
             Accept longitude and latitude, and take them as a plane.
         """
-        crs = crs if crs is not None else crs_of(shape)
+        own = crs_of(shape)
+        if own is not None and crs is not None and own != crs:
+            raise ValueError(f"shape is in {own.to_string()}, but crs is {crs!r}; use shape.to_crs({crs!r})")
+        crs = crs if crs is not None else own
         if is_geographic(crs) and not degrees:
             raise ValueError(
                 "shape is in degrees, whose areas and distances mean little: project it first, e.g. "
@@ -268,6 +271,11 @@ class Domain:
         word = "area" if self.cell_dimension == 2 else "volume"
         periodic = "periodic " if self.is_periodic else ""
         return f"<powercell.Domain: {periodic}{self.kind} of {word} {self.measure:.6g}>"
+
+
+def require_domain(domain: Any) -> None:
+    if not isinstance(domain, Domain):
+        raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
 
 
 @named_arguments

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
-from ._frames import table_columns
+from ._frames import table_columns, values_by_label
 from ._progress import fraction_bar
 
 if TYPE_CHECKING:
@@ -72,6 +72,34 @@ def polygons(diagram: Diagram) -> list[Any]:
     return result
 
 
+def _images_seen(domain: Any, rings: list[np.ndarray]) -> list[np.ndarray]:
+    """How a cell must be moved for its images that reach into the domain's box; 0 alone without periods."""
+    if not rings:
+        return []
+    if not domain.is_periodic:
+        return [np.zeros(2)]
+    corners = np.vstack(rings)
+    low, high = (np.array(end) for end in domain.bounds)
+    moves = [a * domain.periods[0] + b * domain.periods[1] for a in (-1, 0, 1) for b in (-1, 0, 1)]
+    unique = np.unique(np.array(moves), axis=0)
+    return [by for by in unique if (corners.max(0) + by > low).all() and (corners.min(0) + by < high).all()]
+
+
+def _values_to_colour(diagram: Diagram, color: Any) -> Optional[np.ndarray]:
+    """A value of each cell; None where `color` is one colour, or none."""
+    table = diagram._table
+    if color is None or isinstance(color, tuple) or (isinstance(color, str) and color not in table_columns(table)):
+        return None
+    values: Any = values_by_label(color, table, "color")
+    if isinstance(getattr(values, "dtype", None), np.dtype) and values.dtype.kind in "biuf":
+        values = np.asarray(values)
+    else:
+        _, values = np.unique(np.asarray(values, dtype=str), return_inverse=True)
+    if values.shape != (len(diagram),):
+        raise ValueError(f"color has the shape {values.shape}; ({len(diagram)},) is expected, or a colour")
+    return np.asarray(values)
+
+
 def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
     _require_polygon(diagram)
     pyplot = package("matplotlib.pyplot")
@@ -80,13 +108,13 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
         _, ax = pyplot.subplots()
     compound, cell_of = [], []
     for cell, rings in enumerate(_rings(diagram)):
-        if rings:
-            closed = [paths.Path(np.vstack([ring, ring[:1]]), closed=True) for ring in rings]
+        for by in _images_seen(diagram.domain, rings):
+            closed = [paths.Path(np.vstack([ring, ring[:1]]) + by, closed=True) for ring in rings]
             compound.append(paths.Path.make_compound_path(*closed))
             cell_of.append(cell)
     look = {"edgecolor": "0.2", "linewidth": 0.6, **style}
-    values = None if color is None or isinstance(color, str) else np.asarray(color)
-    if values is not None and values.ndim == 1 and len(values) == len(diagram):
+    values = _values_to_colour(diagram, color)
+    if values is not None:
         cells = patches.PathCollection(compound, array=values[cell_of], **look)
     else:
         cells = patches.PathCollection(compound, facecolor="0.92" if color is None else color, **look)
@@ -208,6 +236,9 @@ def _field(value: Any) -> str:
 def to_html(diagram: Diagram, path: str, columns: Optional[Mapping[str, Sequence[Any]]]) -> None:
     if columns is None:
         columns = table_columns(diagram._table)
+        labels = getattr(diagram._table, "index", None)
+        if labels is not None and not np.array_equal(labels, np.arange(len(labels))):
+            columns = {str(labels.name or "label"): list(labels), **columns}
     texts = [[_field(value) for value in np.asarray(columns[key], dtype=object)] for key in columns]
     for key, fields in zip(columns, texts):
         if len(fields) != len(diagram):

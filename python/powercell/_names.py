@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
+from types import SimpleNamespace
 from typing import Any, Callable, Iterable, TypeVar
 
 import numpy as np
@@ -19,7 +20,12 @@ _OTHER_RESULTS = {
     "measure": "mass",
     "measures": "mass",
     "centroids": "centroid",
-    "neighbours": "neighbors",
+    "neighbours": "adjacency",
+    "ridge_vertices": "cells",
+    "hidden": "status",
+    "simplices": "dual",
+    "triangles": "dual",
+    "delaunay": "dual",
     "points": "positions",
     "ridge_points": "adjacency",
     "regions": "cells",
@@ -37,6 +43,8 @@ _OTHER_ARGUMENTS = {
     "radius": "radii",
     "areas": "masses",
     "volumes": "masses",
+    "mass": "masses",
+    "walls": "adjacency",
     "tol": "tolerance",
     "eps": "tolerance",
     "max_iter": "max_steps",
@@ -74,9 +82,8 @@ def named_arguments(function: _Function) -> _Function:
     def checked(*arguments: Any, **keywords: Any) -> Any:
         for name in keywords:
             if name not in known:
-                free = known[len(arguments) :]
                 what = f"{function.__qualname__.removesuffix('.__init__')}() has no argument '{name}'"
-                raise TypeError(what + _suggestion(name, free, _OTHER_ARGUMENTS))
+                raise TypeError(what + _suggestion(name, known, _OTHER_ARGUMENTS))
         return function(*arguments, **keywords)
 
     return checked  # type: ignore[return-value]
@@ -85,21 +92,39 @@ def named_arguments(function: _Function) -> _Function:
 def _shown(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"{value.dtype} array of {value.shape}"
-    if isinstance(value, (list, tuple)) and len(value) > 8:
+    if isinstance(value, (list, tuple)) and (len(value) > 8 or not all(isinstance(one, (int, float, str)) for one in value)):
         return f"{type(value).__name__} of {len(value)}"
     return f"{value:.6g}" if isinstance(value, float) else repr(value)
 
 
+class Record(SimpleNamespace):
+    """The fields of a result that was copied or came from another process, in place of its class."""
+
+    def __repr__(self) -> str:
+        return _lines(self._kind, {name: value for name, value in vars(self).items() if name != "_kind"})
+
+
+def _record(kind: str, fields: dict[str, Any]) -> Record:
+    return Record(_kind=kind, **fields)
+
+
+def _lines(kind: str, fields: dict[str, Any]) -> str:
+    values = {name: _shown(value) for name, value in fields.items()}
+    line = f"{kind}({', '.join(map('='.join, values.items()))})"
+    if len(line) <= 100:
+        return line
+    width = max(map(len, values))
+    return "\n".join([kind, *(f"{name:>{width}}: {value}" for name, value in values.items())])
+
+
 def show_fields(kind: type) -> None:
-    """Makes a class of the extension show the names and values of its fields, where they are long a line each."""
-    fields = [name for name, member in vars(kind).items() if name[0] != "_" and not callable(member)]
-    width = max(map(len, fields), default=0)
+    """Makes a class of the extension show the names and values of its fields, where they are long a line each, and
+    pickle and copy as a :class:`Record` of them.
+    """
+    names = [name for name, member in vars(kind).items() if name[0] != "_" and not callable(member)]
 
-    def show(self: Any) -> str:
-        values = [_shown(getattr(self, name)) for name in fields]
-        line = f"{kind.__name__}({', '.join(map('='.join, zip(fields, values)))})"
-        if len(line) <= 100:
-            return line
-        return "\n".join([kind.__name__, *(f"{name:>{width}}: {value}" for name, value in zip(fields, values))])
+    def fields(self: Any) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in names}
 
-    setattr(kind, "__repr__", show)
+    setattr(kind, "__repr__", lambda self: _lines(kind.__name__, fields(self)))
+    setattr(kind, "__reduce__", lambda self: (_record, (kind.__name__, fields(self))))

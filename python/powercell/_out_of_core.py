@@ -13,7 +13,7 @@ from ._arrays import Reals, check_shape, is_pyopencl, reals
 from ._cell_rows import CellRows
 from ._core import OutOfCoreReport
 from ._device import DeviceLike, open_device
-from ._domain import Domain
+from ._domain import Domain, require_domain
 from ._errors import Error
 from ._names import named_arguments
 from ._options import diagram_options
@@ -164,8 +164,7 @@ def compute_out_of_core(
     >>> del seeds, volumes
     >>> folder.cleanup()
     """
-    if not isinstance(domain, Domain):
-        raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+    require_domain(domain)
     if not callable(take):
         raise ValueError(f"take is a {type(take).__name__}; a function of powercell.CellRows is expected")
     d, periodic = domain.dimension, domain.is_periodic

@@ -44,16 +44,19 @@ def warn_of_seeds_outside(domain: Domain, positions: Reals) -> None:
         )
 
 
-def warn_of_hidden_seeds(domain: Domain, weights: Reals, status: Any) -> None:
+def warn_of_hidden_seeds(domain: Domain, weights: Reals, status: Any, by_radii: bool) -> None:
     """Where weights are to blame: seeds outside the domain have no cell either."""
     hidden = int(np.count_nonzero(status == 1))
     if 2 * hidden <= len(status):
         return
     spacing = (domain.measure / len(weights)) ** (1 / (3 if domain.kind == "volume" else 2))
     if float(np.ptp(weights)) > spacing**2:
+        why = "Radii are lengths in the unit of the positions" if by_radii else (
+            "A weight is a length squared: pass radii=... for radii"
+        )
         warnings.warn(
-            f"{hidden:,} of {len(status):,} seeds are hidden by others. A weight is a length squared: pass radii=... for "
-            "radii. If this is meant, ignore powercell.HiddenSeedsWarning",
+            f"{hidden:,} of {len(status):,} seeds are hidden by others. {why}. If this is meant, ignore "
+            "powercell.HiddenSeedsWarning",
             HiddenSeedsWarning,
             stacklevel=_level_of_caller(),
         )

@@ -11,7 +11,7 @@ from ._arrays import is_pyopencl
 from ._device import Device
 from ._device_cells import DeviceCells, room_for
 from ._device_results import DeviceAdjacency, DeviceBoundaryWalls, DeviceMeasures, DeviceUncertain, empty
-from ._domain import Domain
+from ._domain import Domain, require_domain
 from ._names import named_arguments
 from ._options import diagram_options
 
@@ -66,8 +66,7 @@ class DeviceDiagram:
         wall_capacity: int = 0,
         chunk_pairs: int = 0,
     ) -> None:
-        if not isinstance(domain, Domain):
-            raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+        require_domain(domain)
         self.device = queue if isinstance(queue, Device) else Device.from_queue(queue)
         if self.device.queue is None:
             raise ValueError("queue is a Device without a queue of pyopencl; make it with Device.from_queue")

@@ -37,14 +37,15 @@ class Adjacency:
         The largest difference of a wall as seen from its two sides, before these were averaged.
     asymmetric : (int, int)
         The seeds of that wall; equal if there was none.
-    shift : (m, 3) int32 or None
+    shift : (m, d) int32 or None
         In a periodic domain the image of the neighbour, in units of ``Domain.periods``: the wall is with the
         neighbour moved by ``shift @ periods``.
     """
 
-    def __init__(self, core: Any, seeds: int, dtype: Any = np.float64) -> None:
+    def __init__(self, core: Any, seeds: int, dimension: int, dtype: Any = np.float64) -> None:
         self._core = core
         self._seeds = seeds
+        self._dimension = dimension
         self._dtype = dtype
 
     @property
@@ -62,7 +63,8 @@ class Adjacency:
 
     @property
     def shift(self) -> Optional[NDArray[np.int32]]:
-        return self._core.shift  # type: ignore[no-any-return]
+        shift: Any = self._core.shift
+        return None if shift is None else shift[:, : self._dimension]
 
     @property
     def asymmetry(self) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._density import Density, density_arguments
 from ._device import DeviceLike, open_device
-from ._domain import Domain
+from ._domain import Domain, require_domain
 from ._frames import checked_positions
 from ._names import named_arguments
 from ._options import diagram_options
@@ -72,6 +72,7 @@ def sample(
     >>> dots.converged, dots.positions.shape
     (True, (100, 2))
     """
+    require_domain(domain)
     start: Any
     try:
         start = operator.index(points)  # type: ignore[arg-type]

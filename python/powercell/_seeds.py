@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import dataclass, field
 from typing import Any, Optional, Union
 
@@ -33,6 +34,9 @@ class Seeds:
     def __len__(self) -> int:
         return len(self.weights)
 
+    def __getitem__(self, column: str) -> np.ndarray:
+        return self.columns[column]
+
 
 def _column(fields: list[str]) -> np.ndarray:
     try:
@@ -42,13 +46,21 @@ def _column(fields: list[str]) -> np.ndarray:
 
 
 def _read(path: str, dimension: int, weight: str, radius: str) -> Any:
-    return _core.read_seeds(path, dimension, weight, radius)
+    try:
+        return _core.read_seeds(path, dimension, weight, radius)
+    except Error as error:  # in the words of the tool
+        text = re.sub(r"--(weight|radius)-column( (?=['\"]))?", lambda m: f"{m[1]}_column" + ("=" if m[2] else ""), str(error))
+        raise Error(text, error.code) from None
 
 
 def _find_dimension(path: str, weight: str, radius: str) -> int:
     try:
         table = _read(path, 2, weight, radius)
-    except Error:
+    except Error as in_plane:
+        try:
+            _read(path, 3, weight, radius)
+        except Error:
+            raise in_plane from None
         return 3
     if table.names:
         return 3 if any(name.strip().lower() in ("z", "z_coord", "pz") for name in table.names) else 2

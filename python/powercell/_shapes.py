@@ -37,6 +37,8 @@ def _is_numeric(value: Any) -> bool:
 def polygon_parts(shape: Any) -> list[list[Reals]]:
     """Per part its rings, the outer one first: of anything with ``__geo_interface__``, or of arrays."""
     mapping = getattr(shape, "__geo_interface__", shape if isinstance(shape, dict) else None)
+    if mapping is None and not hasattr(shape, "__len__"):
+        raise ValueError(f"shape is a {type(shape).__name__}; a polygon or several are expected")
     if mapping is not None:
         return _parts_of_mapping(mapping)
     if isinstance(shape, np.ndarray) or (len(shape) and _is_numeric(shape[0]) and np.ndim(shape[0]) == 1):
@@ -54,7 +56,12 @@ def crs_of(shape: Any) -> Optional[Any]:
 
 
 def require_same_crs(points: Any, domain_crs: Any) -> None:
-    crs = crs_of(points)
+    crs: Any = crs_of(points)
+    if domain_crs is None and is_geographic(crs):
+        raise ValueError(
+            f"positions are in degrees ({crs.to_string()}), but the domain has no coordinate system: project both to one "
+            "plane, and name it (Domain.polygon(shape, crs=...))"
+        )
     if crs is not None and domain_crs is not None and crs != domain_crs:
         raise ValueError(
             f"positions are in {crs.to_string()}, but the domain is in {domain_crs}: bring them together, e.g. "
@@ -63,6 +70,16 @@ def require_same_crs(points: Any, domain_crs: Any) -> None:
 
 
 def is_geographic(crs: Any) -> bool:
+    """Whether it is in degrees, as far as it can be told."""
+    if crs is not None and not hasattr(crs, "is_geographic"):
+        try:
+            import pyproj
+        except ImportError:
+            return False
+        try:
+            crs = pyproj.CRS.from_user_input(crs)
+        except pyproj.exceptions.CRSError:
+            raise ValueError(f"crs is {crs!r}, which names no coordinate system") from None
     return bool(getattr(crs, "is_geographic", False))
 
 

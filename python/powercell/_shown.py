@@ -24,8 +24,10 @@ class Shown:
         Parameters
         ----------
         ax : matplotlib axes, optional
-        color : (n,) array_like or a colour, optional
-            Values mapped to colours, or one colour for all cells.
+            Default: those of a new figure.
+        color : (n,) array_like, str or a colour, optional
+            Values or categories mapped to colours, or a column of the table that the seeds are from by its name; or one
+            colour for all cells.
         **style
             Passed to ``PolyCollection``.
 

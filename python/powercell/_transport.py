@@ -12,7 +12,7 @@ from ._density import Density, density_arguments
 from ._device import DeviceLike, open_device
 from ._diagram import Diagram
 from ._domain import Domain
-from ._frames import checked_positions, checked_seeds, checked_values, values_of
+from ._frames import checked_positions, checked_seeds, checked_values, in_order_of, values_of
 from ._names import named_arguments
 from ._options import diagram_options
 from ._outside import warn_of_seeds_outside
@@ -97,8 +97,10 @@ class TransportSolver:
             self._core.set_masses(target)
 
     def move_seeds(self, positions: ArrayLike) -> None:
-        """Moves the seeds; the next solve starts from adjusted weights."""
-        self._core.move_seeds(checked_positions(self.domain, positions, count=self._count))
+        """Moves the seeds; the next solve starts from adjusted weights. Where both have labels, in the order of those
+        given first."""
+        ordered = in_order_of(positions, self._table)
+        self._core.move_seeds(checked_positions(self.domain, ordered, count=self._count))
 
     def set_masses(self, masses: Optional[ArrayLike]) -> None:
         """Sets the target masses; None for equal ones."""
@@ -134,7 +136,9 @@ class TransportSolver:
         [0.75, 0.25]
         """
         positions, weights = self._core.diagram_seeds()
-        return Diagram(self.domain, positions, weights, **self._of_diagram)
+        found = Diagram(self.domain, positions, weights, **self._of_diagram)
+        found._table = self._table
+        return found
 
     @named_arguments
     def solve(self, progress: Progress = None) -> Any:

@@ -69,11 +69,15 @@ nb::object owned(std::vector<T> values, std::vector<std::size_t> shape) {
   return view(kept->data(), std::move(shape), owner);
 }
 
-/// Rows of integer shifts, one for each coordinate; None in a domain that is not periodic.
+/// Rows of integer shifts, one for each of d coordinates; None in a domain that is not periodic.
 template <class Result>
-nb::object shifts(const Result& result, nb::handle owner) {
+nb::object shifts(const Result& result, nb::handle owner, int d = 3) {
   if (result.shift.empty()) return nb::none();
-  return view(result.shift.front().data(), {result.shift.size(), 3}, owner);
+  const auto columns = static_cast<std::size_t>(d);
+  const std::int64_t strides[] = {3, 1};
+  const std::size_t shape[] = {result.shift.size(), columns};
+  return nb::cast(
+      nb::ndarray<nb::numpy, const std::int32_t>(result.shift.front().data(), 2, shape, owner, strides));
 }
 
 }  // namespace powercell::python

@@ -38,7 +38,8 @@ nb::object walls(nb::handle self) {
   DensityIntegrals& all = nb::cast<DensityIntegrals&>(self);
   if (all.walls.offset.empty()) return nb::none();
   const nb::object type = nb::module_::import_("powercell._results").attr("Adjacency");
-  return type(nb::cast(&all.walls, nb::rv_policy::reference_internal, self), all.mass.size());
+  return type(nb::cast(&all.walls, nb::rv_policy::reference_internal, self), all.mass.size(),
+              all.mass.empty() ? 0 : all.centroid.size() / all.mass.size());
 }
 
 #define POWERCELL_VECTOR(member) \

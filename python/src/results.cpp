@@ -13,6 +13,12 @@ nb::object borders(const std::vector<Border>& all, nb::handle owner) {
   return view(reinterpret_cast<const std::uint32_t*>(all.data()), {all.size(), 2}, owner);
 }
 
+template <class Result>
+nb::object shifts_of(nb::handle self) {
+  const Result& cells = nb::cast<Result&>(self);
+  return shifts(cells, self, cells.dimension);
+}
+
 #define POWERCELL_VECTOR(Type, member) \
   def_prop_ro(#member, [](nb::handle self) { return view(nb::cast<Type&>(self).member, self); })
 
@@ -53,7 +59,7 @@ face_offset : (pieces + 1,)
 border : (faces, 2)
     Kind and index of the other side: 0 the cell of a seed, 1 a facet of the domain, 2 the same cell in another region.
     In the plane and on surfaces face k is the edge from vertex k to the next.
-shift : (faces, 3) or None
+shift : (faces, d) or None
     In a periodic domain the image of the neighbour, as in :class:`Adjacency`.
 loop_offset : (faces + 1,)
 loop : (l,)
@@ -70,7 +76,7 @@ loop : (l,)
                    })
       .POWERCELL_VECTOR(Cells, face_offset)
       .def_prop_ro("border", [](nb::handle self) { return borders(nb::cast<Cells&>(self).border, self); })
-      .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<Cells&>(self), self); })
+      .def_prop_ro("shift", &shifts_of<Cells>)
       .POWERCELL_VECTOR(Cells, loop_offset)
       .POWERCELL_VECTOR(Cells, loop);
   nb::class_<JoinedCells>(m, "JoinedCells", R"(Whole cells, without the faces between their pieces.
@@ -95,7 +101,7 @@ loop : (l,)
 edge_border : (l, 2)
     In polygons and on surfaces: the same of the edge that starts at each entry of ``loop``; 2 the same cell in
     another triangle.
-shift : (faces or l, 3) or None
+shift : (faces or l, d) or None
     In a periodic domain the image of the neighbour, as in :class:`Adjacency`.
 
 Examples
@@ -121,7 +127,7 @@ Examples
       .POWERCELL_VECTOR(JoinedCells, loop)
       .def_prop_ro("edge_border",
                    [](nb::handle self) { return borders(nb::cast<JoinedCells&>(self).edge_border, self); })
-      .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<JoinedCells&>(self), self); });
+      .def_prop_ro("shift", &shifts_of<JoinedCells>);
   nb::class_<Timings>(m, "Timings", "Seconds spent in each part of the last computation, and counts.")
       .def_ro("total", &Timings::total)
       .def_ro("prepare", &Timings::prepare)

@@ -99,7 +99,7 @@ def test_points_of_shapely():
     points = [shapely.Point(*row) for row in xy]
     for given in (points, tuple(points), np.array(points, dtype=object), shapely.MultiPoint(points)):
         assert (pc.Diagram(box, given).positions == xy).all()
-    with pytest.raises(ValueError, match="row 3 is not a point"):
+    with pytest.raises(ValueError, match="row 3 is a LineString; points are expected"):
         pc.Diagram(box, [*points, shapely.LineString([(0, 0), (1, 1)])])
     for wrong in ({"a": [1, 2]}, "points", 3):
         with pytest.raises(ValueError):

@@ -126,7 +126,7 @@ def test_walls_of_a_periodic_box_have_shifts(rng):
     for own, cells in zip(order, found):
         assert not isinstance(cells, BaseException), cells
         compare(whole, ids, own, cells)
-        assert cells.shift.shape == (len(cells.data), 3)
+        assert cells.shift.shape == (len(cells.data), box.dimension)
         for place, seed in enumerate(own):
             begin, end = whole.adjacency.indptr[seed : seed + 2]
             assert np.array_equal(cells.shift[cells.indptr[place] : cells.indptr[place + 1]], whole.adjacency.shift[begin:end])
