@@ -10,6 +10,7 @@
 #include "lib/clip/host_polyhedron.hpp"
 #include "lib/clip/host_search.hpp"
 #include "lib/clip/host_walls.hpp"
+#include "lib/clip/tie_sets.hpp"
 #include "lib/clip/vertex_search.hpp"
 
 namespace powercell {
@@ -26,7 +27,8 @@ class PieceClipper final : public HostClipper {
         exact_(scene),
         search_(scene),
         vertex_search_(scene),
-        close_search_(scene) {}
+        close_search_(scene),
+        tie_sets_(scene) {}
 
   bool met_tie() const override { return exact_.met_tie(); }
 
@@ -153,9 +155,14 @@ class PieceClipper final : public HostClipper {
   /// A seed that is nearer to the vertex than the cell's own. If doubles leave more than a few in doubt,
   /// pairs of doubles search again. Exact decisions settle the rest.
   std::optional<std::uint32_t> find_cutter(std::uint32_t v) {
+    const ExactVertex borders = cell_.borders(v);
+    const std::vector<std::uint32_t> corners = corners_of(borders);
+    if (const auto* ties = corners.empty() ? nullptr : tie_sets_.find(corners)) {
+      exact_.set_met_tie(true);
+      return tie_sets_.taker(*ties, corners, borders, exact_);
+    }
     sharpen(v);
     const HostPoint& vertex = cell_.vertex(v);
-    const ExactVertex borders = cell_.borders(v);
     const std::size_t most = is_on_bisector(borders) ? doubtful_most : scene_.points.size();
     if (const auto other = vertex_search_.find(vertex.at, vertex.error, most)) return other;
     if (vertex_search_.doubtful().size() <= most) return find_exactly(borders, vertex_search_.doubtful());
@@ -166,8 +173,43 @@ class PieceClipper final : public HostClipper {
     return find_exactly(borders, close_search_.doubtful());
   }
 
+  /// The seeds that are equally near to a vertex, that of the cell first; none if a facet of the region meets
+  /// in it.
+  std::vector<std::uint32_t> corners_of(const ExactVertex& borders) const {
+    std::vector<std::uint32_t> corners{rank_};
+    for (std::size_t k = 0; k < Cell::dimension; ++k) {
+      if (borders[k] < 0) return {};
+      corners.push_back(static_cast<std::uint32_t>(borders[k]));
+    }
+    if (scene_.mesh->dimension != scene_.mesh->cell_dimension) return {};
+    return corners;
+  }
+
+  /// Decides about all of many seeds, to know next time which of them tie.
+  std::optional<std::uint32_t> find_and_learn(const ExactVertex& borders,
+                                              const std::vector<std::uint32_t>& others) {
+    std::vector<std::uint32_t> corners = corners_of(borders), ties = corners;
+    std::optional<std::uint32_t> by_tie;
+    const bool had_met = exact_.met_tie();
+    for (const std::uint32_t other : others) {
+      exact_.set_met_tie(false);
+      const bool outside = exact_.is_outside(borders, static_cast<std::int32_t>(other));
+      if (exact_.met_tie())
+        ties.push_back(other);
+      else if (outside)
+        return other;
+      if (outside) by_tie = other;
+    }
+    std::sort(ties.begin(), ties.end());
+    ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
+    exact_.set_met_tie(had_met || ties.size() > corners.size());
+    if (!corners.empty()) tie_sets_.learn(std::move(ties));
+    return by_tie;
+  }
+
   std::optional<std::uint32_t> find_exactly(const ExactVertex& borders,
                                             const std::vector<std::uint32_t>& others) {
+    if (others.size() >= TieSets::least) return find_and_learn(borders, others);
     const auto found = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
       return exact_.is_outside(borders, static_cast<std::int32_t>(other));
     });
@@ -297,6 +339,7 @@ class PieceClipper final : public HostClipper {
   HostSearch search_;
   VertexSearch<double> vertex_search_;
   VertexSearch<TwoDoubles> close_search_;
+  TieSets tie_sets_;
   Cell cell_;
   HostRegion region_;
   std::uint32_t rank_ = 0, region_number_ = 0;

@@ -53,6 +53,16 @@ SeedArray on_sphere(std::size_t n, Random& random) {
   return seeds;
 }
 
+/// Integer points that tie exactly in the origin, scaled by a power of 2.
+SeedArray on_integer_sphere() {
+  SeedArray seeds{3, {}, {}};
+  for (int x = -31; x <= 31; ++x)
+    for (int y = -31; y <= 31; ++y)
+      for (int z = -31; z <= 31; ++z)
+        if (x * x + y * y + z * z == 1001) seeds.push({x / 32.0, y / 32.0, z / 32.0}, 0);
+  return seeds;
+}
+
 /// On a few circles about an axis, of radius 1 + slope z.
 SeedArray on_rings(std::size_t n, double slope, Random& random) {
   SeedArray seeds{3, {}, {}};
@@ -163,7 +173,8 @@ void check(const std::string& name, const SeedArray& seeds) {
 
 TEST_CASE("cells that many seeds come near have the same bits in any number of threads") {
   Random random(test_seed());
-  for (const SeedArray& seeds : {on_circle(1000, 2 * std::numbers::pi, random), on_sphere(400, random)}) {
+  for (const SeedArray& seeds :
+       {on_circle(1000, 2 * std::numbers::pi, random), on_sphere(400, random), on_integer_sphere()}) {
     std::vector<double> mass, wall;
     for (const int threads : {1, 2, 3}) {
       Options options;
