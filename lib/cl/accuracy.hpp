@@ -44,4 +44,7 @@ std::string accuracy_fault(const Accuracy& accuracy, bool is_double);
 /// A line for the log.
 std::string describe(const Accuracy& accuracy, bool is_double);
 
+/// Computes known results on the host. \return what is wrong, and for which numbers; empty if all are right
+std::string host_arithmetic_fault();
+
 }  // namespace powercell::cl

@@ -11,7 +11,7 @@
 #include "lib/collect/periodic_walls.hpp"
 #include "lib/collect/selected_walls.hpp"
 #include "lib/diagram/clip.hpp"
-#include "lib/diagram/clip_chunk.hpp"
+#include "lib/diagram/clip_device.hpp"
 #include "lib/integrate/moment_sums.hpp"
 
 namespace powercell {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "lib/cl/context.hpp"
+#include "lib/cl/quirks.hpp"
+
 namespace powercell {
 
 ClipDevice::ClipDevice(const ClipWork& work, const Device& device, DeviceWorkspace& kept,
@@ -61,6 +64,48 @@ void ClipDevice::keep_memory() {
     chunks_[k].clipper.reset();
     if (memory.bytes() <= kept_bytes) kept_.clip[k] = std::move(memory);
   }
+}
+
+void ClipChunk::set_pairs(const Plan& plan, std::uint64_t first, std::uint64_t last) {
+  const std::vector<std::uint64_t>& offset = plan.pairs.offset;
+  const auto row_of = [&](std::uint64_t pair) {
+    return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() -
+                                      1);
+  };
+  begin = first;
+  end = last;
+  pair_row.resize(end - begin);
+  for (std::uint32_t row = row_of(begin); row <= row_of(end - 1); ++row) {
+    const std::uint64_t from = std::max(begin, offset[row]), to = std::min(end, offset[row + 1]);
+    if (to > from) std::fill_n(&pair_row[from - begin], to - from, row);
+  }
+  set_seeds(plan);
+  pair_region = std::span(plan.pairs.region).subspan(begin, end - begin);
+}
+
+void ClipChunk::set_seeds(const Plan& plan) {
+  pair_seed = pair_row;
+  if (!plan.selected) return;
+  selected_seed.resize(pair_row.size());
+  std::transform(pair_row.begin(), pair_row.end(), selected_seed.begin(),
+                 [&](std::uint32_t row) { return plan.selected->rank[row]; });
+  pair_seed = selected_seed;
+}
+
+namespace {
+
+/// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
+constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
+
+}  // namespace
+
+std::uint64_t chunk_pairs(const Setup& setup, const Device& device, std::uint64_t total) {
+  if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
+  const std::uint64_t most =
+      std::min(device.context()->settings().chunk_pairs, cl::quirks_of(device.info()).launch_limit);
+  if (total == 0) return most;
+  // Chunks of equal size, because a small last chunk would not keep all cores busy.
+  return (total - 1) / ((total - 1) / most + 1) + 1;
 }
 
 }  // namespace powercell

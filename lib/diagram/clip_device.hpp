@@ -3,14 +3,35 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <powercell/device.hpp>
+#include <span>
+#include <vector>
 
 #include "lib/cl/quirks.hpp"
-#include "lib/diagram/clip_chunk.hpp"
+#include "lib/clip/clipper.hpp"
 #include "lib/diagram/device_errors.hpp"
+#include "lib/diagram/plan.hpp"
+#include "lib/diagram/setup.hpp"
 
 namespace powercell {
+
+struct ClipChunk {
+  std::uint64_t begin = 0, end = 0;          ///< of the pairs of a plan
+  std::vector<std::uint32_t> pair_row;       ///< of each pair
+  std::vector<std::uint32_t> selected_seed;  ///< the same by rank, if cells are selected
+  std::span<const std::uint32_t> pair_seed;  ///< the same by rank
+  std::span<const std::uint32_t> pair_region;
+  std::optional<Clipper> clipper;
+  std::vector<std::uint32_t> for_host;  ///< once the device has clipped the chunk: the pairs to finish here
+
+  /// Makes this the pairs [first, last) of a plan, which must not be empty.
+  void set_pairs(const Plan& plan, std::uint64_t first, std::uint64_t last);
+  /// Sets pair_seed from pair_row.
+  void set_seeds(const Plan& plan);
+};
 
 /// What clipping is the same on all devices.
 struct ClipWork {
@@ -64,5 +85,10 @@ class ClipDevice {
   Candidates* candidates_;  // null before a further device is prepared
   std::array<ClipChunk, 2> chunks_;
 };
+
+inline constexpr std::uint64_t least_chunk_pairs = 1024;
+
+/// The number of pairs of a chunk on one device, of `total`; 0 pairs stand for very many.
+std::uint64_t chunk_pairs(const Setup& setup, const Device& device, std::uint64_t total);
 
 }  // namespace powercell

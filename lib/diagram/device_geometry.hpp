@@ -9,7 +9,7 @@
 #include "lib/neighbors/tree_blocks.hpp"
 #include "lib/pairs/device_pairs.hpp"
 #include "lib/periodic/device_images.hpp"
-#include "lib/primitives/compaction.hpp"
+#include "lib/primitives/scan.hpp"
 #include "lib/scene/variant.hpp"
 
 namespace powercell {

@@ -10,8 +10,6 @@
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
 #include "lib/cl/transfers.hpp"
-#include "lib/diagram/merge_rows.hpp"
-#include "lib/diagram/repair_boundary.hpp"
 #include "lib/diagram/repair_cells.hpp"
 #include "lib/diagram/state.hpp"
 

@@ -6,7 +6,7 @@
 #include "kernels/layout.h"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/facets.hpp"
-#include "lib/diagram/chunk_pairs.hpp"
+#include "lib/diagram/clip_device.hpp"
 
 namespace powercell {
 namespace {

@@ -4,8 +4,8 @@
 #include <powercell/error.hpp>
 #include <string>
 
-#include "lib/base/copy_point.hpp"
 #include "lib/base/memory.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/threads.hpp"
 
 namespace powercell {

@@ -4,7 +4,6 @@
 
 #include "lib/collect/dual.hpp"
 #include "lib/collect/facets.hpp"
-#include "lib/collect/periodic_dual.hpp"
 #include "lib/diagram/device_errors.hpp"
 #include "lib/diagram/facets.hpp"
 #include "lib/diagram/stopwatch.hpp"

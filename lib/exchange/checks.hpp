@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <powercell/distributed.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/options.hpp>
 #include <powercell/seeds.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lib/base/post.hpp"
 #include "lib/diagram/setup.hpp"
@@ -31,5 +33,11 @@ void require_supported(const Domain& domain, const Options& options,
 /// \throw Error unsupported (single precision), invalid_argument (sizes of the seeds here, an id that is
 /// there twice among all), invalid_seed (the one that a diagram of all would name, by its id)
 void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post);
+
+/// The domain and those options that decide what is computed.
+std::vector<NamedValue> call_values(const Domain& domain, const Options& options);
+
+/// \throw Error invalid_argument, with what differs
+void require_same_call(const Domain& domain, const DistributedOptions& options, Post& post);
 
 }  // namespace powercell::exchange

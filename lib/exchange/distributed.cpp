@@ -5,8 +5,8 @@
 #include "lib/base/float_environment.hpp"
 #include "lib/base/rank_post.hpp"
 #include "lib/diagram/state.hpp"
+#include "lib/exchange/checks.hpp"
 #include "lib/exchange/redistribution.hpp"
-#include "lib/exchange/same_call.hpp"
 #include "lib/exchange/steps.hpp"
 
 namespace powercell {

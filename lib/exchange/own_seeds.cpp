@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/base/copy_point.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/exchange/answers.hpp"
 #include "lib/exchange/outline.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "lib/base/float_environment.hpp"
+#include "lib/base/post.hpp"
 #include "lib/base/rank_post.hpp"
-#include "lib/base/same_values.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/exchange/redistribution.hpp"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "lib/base/copy_point.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/seeds/hilbert.hpp"
 
 namespace powercell::exchange {

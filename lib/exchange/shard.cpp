@@ -7,8 +7,8 @@
 #include <numeric>
 #include <unordered_set>
 
-#include "lib/base/copy_point.hpp"
 #include "lib/base/memory.hpp"
+#include "lib/base/positions.hpp"
 
 namespace powercell::exchange {
 namespace {

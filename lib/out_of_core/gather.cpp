@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lib/base/background.hpp"
-#include "lib/base/copy_point.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/sums.hpp"
 
 namespace powercell::out_of_core {

@@ -10,7 +10,6 @@
 #include "lib/base/random.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/exchange/checks.hpp"
-#include "lib/exchange/same_call.hpp"
 #include "lib/out_of_core/call_file.hpp"
 #include "lib/out_of_core/gather.hpp"
 #include "lib/out_of_core/other_seeds.hpp"

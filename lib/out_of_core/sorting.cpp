@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/base/background.hpp"
-#include "lib/base/copy_point.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/diagram/input.hpp"
 #include "lib/out_of_core/store.hpp"

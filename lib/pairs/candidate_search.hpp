@@ -2,16 +2,19 @@
 /// The candidates of one region, or of a box of regions. Internal.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "lib/pairs/exclusion.hpp"
 #include "lib/pairs/list_search.hpp"
 #include "lib/pairs/local_tree.hpp"
-#include "lib/pairs/node_search.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "lib/pairs/part.hpp"
 #include "lib/pairs/region_interior.hpp"
+#include "lib/regions/region_groups.hpp"
 
 namespace powercell::pairs {
 
@@ -88,5 +91,34 @@ class CandidateSearch {
 
 extern template class CandidateSearch<2>;
 extern template class CandidateSearch<3>;
+
+/// Everything must outlive the search.
+struct RegionSearchInput {
+  const RegionMesh& mesh;
+  const RegionGroups& groups;
+  const SeedSet& seeds;
+  const PackedTree& tree;
+  int threads;
+  const std::function<bool(double)>& progress;
+};
+
+/// A view of the candidate ranks of one region, ascending.
+struct RankList {
+  const std::uint32_t* first = nullptr;
+  std::uint32_t count = 0;
+};
+
+/// The candidates found. The lists point into `tasks`.
+struct RegionLists {
+  struct Task {
+    std::vector<std::uint32_t> ranks;  ///< region after region in the order of the groups
+    std::vector<std::uint64_t> end;    ///< per region: end of its ranks
+  };
+  std::vector<Task> tasks;
+  std::vector<RankList> list;  ///< by region
+};
+
+/// \throw Error interrupted
+RegionLists search_regions(const RegionSearchInput& search);
 
 }  // namespace powercell::pairs

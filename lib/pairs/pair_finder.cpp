@@ -5,8 +5,8 @@
 
 #include "lib/base/threads.hpp"
 #include "lib/domain/outline.hpp"
+#include "lib/pairs/candidate_search.hpp"
 #include "lib/pairs/cell_search.hpp"
-#include "lib/pairs/region_search.hpp"
 
 namespace powercell {
 namespace {

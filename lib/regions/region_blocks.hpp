@@ -2,14 +2,35 @@
 /// The regions and their groups in blocks of eight, one vector per coordinate. Internal.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
+#include "lib/base/compiler.hpp"
 #include "lib/domain/region_mesh.hpp"
-#include "lib/regions/lanes.hpp"
 #include "lib/regions/region_groups.hpp"
 
 namespace powercell {
+
+constexpr std::size_t lane_count = 8;
+
+/// One coordinate of eight boxes or points.
+using Lanes = std::array<double, lane_count>;
+
+namespace lanes {
+
+using Vector POWERCELL_VECTOR(lane_count * sizeof(double)) = double;
+
+POWERCELL_ALWAYS_INLINE void load(const void* from, Vector& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+POWERCELL_ALWAYS_INLINE void store(const Vector& from, void* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+}  // namespace lanes
 
 /// A block holds the members of one group; a group of fewer than eight repeats its last member.
 struct RegionBlocks {

@@ -1,10 +1,13 @@
 #include "lib/seeds/device_seeds.hpp"
 
+#include <cmath>
+
 #include "kernels/layout.h"
 #include "lib/domain/frame.hpp"
 #include "lib/primitives/tiles.hpp"
 
 namespace powercell {
+
 namespace {
 
 // The bounding box is reduced in tiles of at least 64 seeds; one work-item reduces the boxes of all tiles, so
@@ -78,6 +81,44 @@ void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::u
       .args(count, order, packed_, status_, positions, weights ? weights : positions,
             cl_int{weights != nullptr}, cl_int{wrap.has_value()}, wrap ? wrap->place.handle() : positions,
             points, state)
+      .submit(count);
+}
+
+namespace {
+
+/// The numbers of the lattice with those of the frame.
+PeriodGrid::Numbers numbers_in(const Frame& frame, const Period& period) {
+  PeriodGrid::Numbers numbers = period.grid().numbers();
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (numbers[PERIOD_ROUNDED + c] == 0) continue;
+    const auto quantum = static_cast<int>(numbers[PERIOD_QUANTUM + c]);
+    // The corners of the room around all cells are multiples of the quantum, so its centre is one of the
+    // half.
+    numbers[PERIOD_CENTRE + c] = static_cast<std::int64_t>(std::ldexp(frame.centre[c], 1 - quantum));
+    numbers[PERIOD_UNIT + c] = quantum - 1 + std::ilogb(frame.scale);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+DeviceWrap::DeviceWrap(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
+                       const Period& lattice, const Frame& host_frame)
+    : period(context),
+      place(context),
+      shift(context),
+      dimension_(static_cast<std::size_t>(lattice.dimension())),
+      wrap_(context, context->program("seeds/wrap.cl", defines), "wrap_seeds") {
+  period.upload(numbers_in(host_frame, lattice));
+}
+
+void DeviceWrap::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count, cl_mem packed,
+                         cl_mem status) {
+  place.resize(count * dimension_);
+  shift.resize(std::size_t{count} * 3);
+  wrap_
+      .args(count, frame, positions, weights ? weights : positions, cl_int{weights != nullptr}, period,
+            packed, status, place, shift)
       .submit(count);
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "kernels/layout.h"
-#include "lib/base/copy_point.hpp"
 #include "lib/base/memory.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/seeds/hilbert.hpp"
 

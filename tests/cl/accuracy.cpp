@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/cl/self_test_results.hpp"
+#include "lib/cl/self_test.hpp"
 #include "tests/cl/support.hpp"
 
 using namespace powercell;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lib/cl/enumerate.hpp"
-#include "lib/cl/self_test_results.hpp"
 #include "tests/cl/support.hpp"
 
 using namespace powercell;

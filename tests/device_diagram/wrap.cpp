@@ -10,7 +10,7 @@
 #include "kernels/layout.h"
 #include "lib/diagram/setup.hpp"
 #include "lib/scene/variant.hpp"
-#include "lib/seeds/device_wrap.hpp"
+#include "lib/seeds/device_seeds.hpp"
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/domains.hpp"
 

@@ -1,11 +1,11 @@
 // Ranges by speed: each item once, in order, and all members end together.
-#include "lib/diagram/sharing.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
+
+#include "lib/diagram/chunk_pipeline.hpp"
 
 using namespace powercell;
 

@@ -1,12 +1,12 @@
 // Values that are kept with a domain.
-#include "lib/domain/kept_values.hpp"
-
 #include <doctest/doctest.h>
 
 #include <atomic>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "lib/domain/region_mesh.hpp"
 
 using powercell::KeptValues;
 

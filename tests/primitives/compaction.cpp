@@ -1,7 +1,6 @@
-#include "lib/primitives/compaction.hpp"
-
 #include <doctest/doctest.h>
 
+#include "lib/primitives/scan.hpp"
 #include "tests/primitives/support.hpp"
 
 using namespace powercell;

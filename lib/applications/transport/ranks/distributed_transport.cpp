@@ -8,7 +8,7 @@
 #include "lib/applications/transport/ranks/rank_evaluator.hpp"
 #include "lib/applications/transport/ranks/rank_seeds.hpp"
 #include "lib/base/float_environment.hpp"
-#include "lib/base/same_values.hpp"
+#include "lib/base/post.hpp"
 
 namespace powercell {
 namespace {

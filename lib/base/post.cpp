@@ -1,4 +1,4 @@
-#include "lib/base/same_values.hpp"
+#include "lib/base/post.hpp"
 
 #include <powercell/error.hpp>
 #include <string>
