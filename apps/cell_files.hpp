@@ -21,8 +21,8 @@ std::vector<std::string> cell_file_names(const std::string& table, const std::st
 /// Writes the files as cells come, and gives them their names with the last ones.
 class CellFiles {
  public:
-  /// \param seeds  read again for a table that repeats them \param report  receives the sum of the measures;
-  /// both are kept by reference
+  /// \param seeds  read again for a table that repeats them
+  /// \param report  receives the sum of the measures; both are kept by reference
   CellFiles(std::string table, std::string walls, io::SeedStream& seeds, const Domain& domain,
             RunReport& report);
 

@@ -21,7 +21,8 @@ struct CommandLine {
 };
 
 /// The fault of wrong arguments, on one line that proposes the closest option, command or word and points to
-/// the help. \param error  of CLI11, or WrongUsage
+/// the help.
+/// \param error  of CLI11, or WrongUsage
 std::string fault_of_usage(const CLI::App& app, const std::exception& error);
 
 }  // namespace powercell::app

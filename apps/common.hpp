@@ -41,7 +41,8 @@ struct CommonOptions {
   bool silent() const { return quiet || json; }
 };
 
-/// Adds --device. \param preface  of the help, e.g. "For transport: "
+/// Adds --device.
+/// \param preface  of the help, e.g. "For transport: "
 void add_device_option(CLI::App& command, CommonOptions& options, const std::string& preface = {});
 /// Adds --threads, likewise.
 void add_threads_option(CLI::App& command, CommonOptions& options, const std::string& preface = {});

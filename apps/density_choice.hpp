@@ -35,18 +35,20 @@ struct Ink {
 /// \throw Error invalid_file as read_image, and for an image without dark (or bright) pixels
 Ink read_ink(const DensityArguments& arguments, bool colours = false);
 
-/// An image that fills the box of a domain. \param values  of the pixels of `ink`, same shape
+/// An image that fills the box of a domain.
+/// \param values  of the pixels of `ink`, same shape
 /// \throw Error invalid_argument unless the domain is a polygon
 Density image_density(const Domain& domain, const Ink& ink, std::span<const double> values);
 
-/// "the integrals of the density are right to 1e-3 of a mass". \param quadrature_error  of TransportResult
+/// "the integrals of the density are right to 1e-3 of a mass".
+/// \param quadrature_error  of TransportResult
 std::string integrals_are_right_to(double quadrature_error);
 /// Advice if that is not accurate enough.
 inline constexpr const char* remedy_of_integrals =
     "--density jumps or has kinks: give it as --image, which is exact, or a looser --tolerance";
 
-/// The density that the arguments give; 1 everywhere by default. \throw as the functions above and
-/// read_density
+/// The density that the arguments give; 1 everywhere by default.
+/// \throw as the functions above and read_density
 Density read_density(const DensityArguments& arguments, const Domain& domain);
 
 }  // namespace powercell::app

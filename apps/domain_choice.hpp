@@ -20,7 +20,8 @@ struct DomainArguments {
 /// Adds the options without --domain, which commands describe in their own words.
 void add_domain_options(CLI::App& command, DomainArguments& arguments);
 
-/// \throw Error as io::read_domain() \throw WrongUsage for options that contradict each other
+/// \throw Error as io::read_domain()
+/// \throw WrongUsage for options that contradict each other
 io::DomainArrays read_domain_arrays(const DomainArguments& arguments);
 
 }  // namespace powercell::app

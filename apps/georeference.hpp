@@ -32,7 +32,8 @@ struct Georeference {
 
 /// Decides by the arguments, by what the files say, and by the names of the seeds' columns. Degrees are
 /// projected to an equal-area plane; other systems are planes already, unless --project is given. Numbers
-/// that only look like degrees stay in their plane, and a note says so. \param file  the argument of --domain
+/// that only look like degrees stay in their plane, and a note says so.
+/// \param file  the argument of --domain
 /// \throw Error invalid_argument (unknown systems, options without a map)
 Georeference georeference(const MapArguments& arguments, const std::string& file,
                           const io::DomainArrays& domain, const io::SeedColumns& columns);

@@ -74,7 +74,8 @@ void note_small_weights(Inputs& inputs) {
         share));
 }
 
-/// Counts the seeds that stand for images inside. \return what a report says of them, and of bounded axes
+/// Counts the seeds that stand for images inside.
+/// \return what a report says of them, and of bounded axes
 std::string note_images(Inputs& inputs, const std::string& along_bounded) {
   const Domain& domain = inputs.domain.domain;
   const auto d = static_cast<std::size_t>(domain.dimension());

@@ -45,9 +45,11 @@ struct Inputs {
 /// \throw Error of the readers; invalid_seed if the seeds miss the domain
 Inputs read_inputs(const InputArguments& arguments);
 
-/// The domain alone, in the coordinates of its file. \param way  of computing, which needs these coordinates,
-/// for the message \param columns  of the seeds, by the dimension
-/// \param notes  receives how it was read \throw WrongUsage if seeds or domain would be projected
+/// The domain alone, in the coordinates of its file.
+/// \param way  of computing, which needs these coordinates, for the message
+/// \param columns  of the seeds, by the dimension
+/// \param notes  receives how it was read
+/// \throw WrongUsage if seeds or domain would be projected
 io::LoadedDomain read_plane_domain(const InputArguments& arguments, const std::string& way,
                                    const std::function<io::SeedColumns(int dimension)>& columns,
                                    std::vector<std::string>& notes);

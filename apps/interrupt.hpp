@@ -24,7 +24,8 @@ class Computing {
   Computing& operator=(const Computing&) = delete;
 };
 
-/// Runs `work` as a computation. \throw Error interrupted if a signal arrived meanwhile
+/// Runs `work` as a computation.
+/// \throw Error interrupted if a signal arrived meanwhile
 template <class Work>
 void compute(Work&& work) {
   {

@@ -17,7 +17,8 @@ struct OutOfCoreArguments {
   std::uint64_t memory;      ///< bytes
 };
 
-/// \return the exit code \throw WrongUsage, Error of the readers and of compute_out_of_core()
+/// \return the exit code
+/// \throw WrongUsage, Error of the readers and of compute_out_of_core()
 int run_out_of_core(const OutOfCoreArguments& arguments);
 
 }  // namespace powercell::app

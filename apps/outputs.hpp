@@ -17,7 +17,8 @@ class App;
 
 namespace powercell::app {
 
-/// Adds -o, which may be repeated. \param kinds  the known extensions, for the help
+/// Adds -o, which may be repeated.
+/// \param kinds  the known extensions, for the help
 /// \param check  throws an Error for an unknown extension, which is reported as wrong usage
 void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds,
                       std::function<void(const std::string&)> check);
@@ -26,8 +27,10 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
 void add_table_file(CLI::App& command, std::string& file);
 
 /// Refuses files that cannot be created, and two names for one file. If one is `-`, reports go to the
-/// standard error from here on. \param more  further files; empty names are ignored \param json  whether a
-/// report in JSON needs the standard output \throw Error write_failed; WrongUsage
+/// standard error from here on.
+/// \param more  further files; empty names are ignored
+/// \param json  whether a report in JSON needs the standard output
+/// \throw Error write_failed; WrongUsage
 void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more, bool json);
 
 /// What files of a diagram show beside it; see io::DiagramOutput.

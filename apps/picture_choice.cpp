@@ -36,7 +36,8 @@ constexpr std::array<NamedView, 7> named_views = {{{"front", {0, -1, 0}},
                                                    {"bottom", {0, 0, -1}},
                                                    {"iso", {1, -1, 1}}}};
 
-/// Three numbers, not all 0, as a vector of length 1. \param fault  output, if it is none
+/// Three numbers, not all 0, as a vector of length 1.
+/// \param fault  output, if it is none
 std::optional<UnitVector> read_direction(const std::string& text, std::string& fault) {
   const std::vector<std::string_view> parts = io::split(text, ',');
   UnitVector axes{};
@@ -92,7 +93,8 @@ std::optional<io::PictureSize> read_size(const std::string& text, std::string& f
   return io::PictureSize{sides[0], sides[1], true};
 }
 
-/// A check for CLI11. \param read  one of the functions above
+/// A check for CLI11.
+/// \param read  one of the functions above
 template <class Read>
 std::function<std::string(const std::string&)> fault_of(Read read) {
   return [read](const std::string& text) {

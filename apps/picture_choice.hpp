@@ -28,11 +28,13 @@ struct PictureArguments : CameraArguments {
   bool no_cut = false, no_legend = false;
 };
 
-/// Adds --size. \param usual  pixels without it
+/// Adds --size.
+/// \param usual  pixels without it
 void add_size_option(CLI::App& command, SizeArguments& arguments, int usual = 1600);
 /// Adds --size, --camera and --up.
 void add_camera_options(CLI::App& command, CameraArguments& arguments, int usual = 1600);
-/// Adds them all. \param files  the option whose files they are for, as the help names it
+/// Adds them all.
+/// \param files  the option whose files they are for, as the help names it
 void add_picture_options(CLI::App& command, PictureArguments& arguments, const std::string& files);
 
 /// What a diagram is drawn from.
@@ -43,8 +45,9 @@ struct DrawnInputs {
   const SeedsView& seeds;
 };
 
-/// To be called before a long computation. \throw WrongUsage for options without a picture, and for those
-/// that this kind of domain has no use for; Error invalid_argument as io::colour_by
+/// To be called before a long computation.
+/// \throw WrongUsage for options without a picture, and for those that this kind of domain has no use for;
+/// Error invalid_argument as io::colour_by
 io::PictureStyle picture_style(const PictureArguments& arguments, const DrawnInputs& drawn);
 
 /// \throw WrongUsage for a camera along --up

@@ -30,7 +30,8 @@ struct Stage {
 /// kernels.
 class Progress {
  public:
-  /// Begins the first of the stages. \param silent  never draw
+  /// Begins the first of the stages.
+  /// \param silent  never draw
   Progress(std::vector<Stage> stages, bool silent);
   ~Progress();  ///< erases the bar of a run that failed
   Progress(const Progress&) = delete;
@@ -46,7 +47,8 @@ class Progress {
   void building(std::string text);
   /// From here on reported fractions refer to this part of the stage.
   void part(double from, double to);
-  /// Reports a fraction of the part. \return false if the user asks to stop (interrupt.hpp)
+  /// Reports a fraction of the part.
+  /// \return false if the user asks to stop (interrupt.hpp)
   bool at(double fraction);
   /// at() as the library's options take it; for the time of this object.
   std::function<bool(double)> callback();

@@ -47,7 +47,8 @@ struct RunReport {
 void print_notes(const std::vector<std::string>& notes, const std::string& file, const CommonOptions& options,
                  Progress& progress);
 
-/// Enters the seconds of the run. \pre its stages are those of `stage`, and one for computing
+/// Enters the seconds of the run.
+/// \pre its stages are those of `stage`, and one for computing
 void describe_times(const Progress& progress, RunReport& report);
 
 /// Everything but the seconds of reading and writing and the files. Computes the measures.

@@ -26,7 +26,8 @@ struct SavedFile {
 
 /// \throw Error invalid_file (the fault, and which cell)
 SavedFile read_saved(const std::string& path);
-/// The same from memory. \param name  for messages
+/// The same from memory.
+/// \param name  for messages
 SavedFile parse_saved(std::string_view bytes, const std::string& name);
 
 /// The library's laws on the cells and, if there is a summary, whether it agrees with them.

@@ -30,7 +30,8 @@ std::vector<std::string> bench_domain_names();
 
 /// Runs the benchmark for each device, domain and precision, and prints the rows of the table as they finish.
 /// The numbers of seeds are that of the arguments, else those of `earlier` (may be null), else those that
-/// every record has. \throw Error interrupted; invalid_argument, invalid_file (a domain); device_not_found
+/// every record has.
+/// \throw Error interrupted; invalid_argument, invalid_file (a domain); device_not_found
 BenchRecord run_bench(const BenchArguments& arguments, const SavedRecord* earlier);
 
 }  // namespace powercell::app

@@ -43,12 +43,15 @@ struct SavedRecord {
   SavedRecord of_device(const std::string& selector) const;
 };
 
-/// What a file of the record would hold. \param path  a name for messages
+/// What a file of the record would hold.
+/// \param path  a name for messages
 SavedRecord saved(const BenchRecord& record, const std::string& path);
 
-/// Reads a file written from `as_json`. \throw Error invalid_file
+/// Reads a file written from `as_json`.
+/// \throw Error invalid_file
 SavedRecord read_record(const std::string& path);
-/// The same from memory. \param name  for messages
+/// The same from memory.
+/// \param name  for messages
 SavedRecord parse_record(std::string_view bytes, const std::string& name);
 
 }  // namespace powercell::app

@@ -20,7 +20,8 @@ std::vector<std::size_t> row_sizes(const std::string& domain, bool quick);
 double share_of_time(std::size_t n);
 
 /// Why a row is left out, or nothing: its diagram does not fit into the memory of the device, or a run would
-/// take half a minute. \param rate  cells a second with fewer seeds; 0 if it is not known
+/// take half a minute.
+/// \param rate  cells a second with fewer seeds; 0 if it is not known
 std::string why_left_out(std::size_t n, std::uint64_t device_memory, double rate);
 
 /// Bytes of the transfers that are measured, ascending by factors of four: 4 KiB to 256 MiB.

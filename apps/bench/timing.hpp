@@ -33,7 +33,8 @@ io::SeedTable white_seeds(const Domain& domain, std::size_t n);
 double time_once(Diagram& diagram, const io::SeedTable& seeds, bool adjacency);
 
 /// Opens the device, times the first result, and then as many runs as the limits want; every run is checked.
-/// Errors are reported in `BenchRow::failure`. \throw Error interrupted
+/// Errors are reported in `BenchRow::failure`.
+/// \throw Error interrupted
 BenchRow time_row(const BenchTask& task, WorkCounts& counts);
 
 /// The largest of 1, 2, 5, 10, 20, ... not above `wanted`, in [1000, 10^7]. There are few values, so that

@@ -40,7 +40,8 @@ struct DemoSetting {
 
 using DrawPart = DemoPart (*)(const DemoSetting&, const Device*);
 
-/// \param device  not null \throw Error as the library; internal if a self-check fails
+/// \param device  not null
+/// \throw Error as the library; internal if a self-check fails
 DemoPart draw_map(const DemoSetting& setting, const Device* device);
 DemoPart draw_surface(const DemoSetting& setting, const Device* device);
 DemoPart draw_volume(const DemoSetting& setting, const Device* device);

@@ -32,7 +32,8 @@ class AtomicFile {
   void raw(Number value) {
     write(std::string_view(reinterpret_cast<const char*>(&value), sizeof value));
   }
-  /// Writes the rest of the buffer and gives the file its name. \throw Error write_failed
+  /// Writes the rest of the buffer and gives the file its name.
+  /// \throw Error write_failed
   void commit();
 
  private:

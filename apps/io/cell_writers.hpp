@@ -44,7 +44,8 @@ std::unique_ptr<CellWriter> table_writer(const std::string& path, int dimension,
 /// A CSV `seed,neighbor,measure`, or for `NAME.npy` compressed sparse rows as SciPy has them in
 /// NAME.indptr.npy, NAME.indices.npy and NAME.data.npy. In a periodic domain the CSV has the columns
 /// `sx,sy[,sz]` too, and NAME.shift.npy these fields.
-/// \param walls  sides of walls in all \param shift_axes  in a periodic domain its dimension, else 0
+/// \param walls  sides of walls in all
+/// \param shift_axes  in a periodic domain its dimension, else 0
 std::unique_ptr<CellWriter> walls_writer(const std::string& path, std::uint64_t seeds, std::uint64_t walls,
                                          int shift_axes);
 

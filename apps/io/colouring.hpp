@@ -41,18 +41,22 @@ struct Colouring {
   bool is_striped(std::size_t i) const { return !has_value.empty() && has_value[i] == 0; }
 };
 
-/// 0 at `low`, 1 at `high`. \pre low < high
+/// 0 at `low`, 1 at `high`.
+/// \pre low < high
 double share_of_range(double value, double low, double high);
 
 /// Colours on a scale from the least to the greatest of the numbers that are shown.
-/// \param values  n; those that are not numbers are missing  \param shown  n
+/// \param values  n; those that are not numbers are missing
+/// \param shown  n
 Colouring colours_of_numbers(std::span<const double> values, const std::vector<char>& shown, bool whole);
 
 /// Colours of the texts themselves, if all are "#rgb" or "#rrggbb", else one for each text, in their order.
-/// Empty texts are missing. \pre check_classes
+/// Empty texts are missing.
+/// \pre check_classes
 Colouring colours_of_texts(std::span<const std::string_view> values, const std::vector<char>& shown);
 
-/// \param column  for the message  \throw Error invalid_argument for more texts than can be told apart
+/// \param column  for the message
+/// \throw Error invalid_argument for more texts than can be told apart
 void check_classes(std::span<const std::string_view> values, const std::string& column);
 
 }  // namespace powercell::io

@@ -116,7 +116,8 @@ std::optional<std::string_view> length_of(std::string_view text, bool bare) {
   return std::nullopt;
 }
 
-/// The kind and the spelling of a unit; none if it is not known. \param bare  without brackets
+/// The kind and the spelling of a unit; none if it is not known.
+/// \param bare  without brackets
 std::pair<Unit, std::string> known_unit(std::string_view text, bool bare) {
   std::string packed;
   for (const char c : text)

@@ -7,7 +7,8 @@
 
 namespace powercell::io {
 
-/// Refuses maps such as KML, GML and shapefiles, by their extension in lower case. \throw Error invalid_file
+/// Refuses maps such as KML, GML and shapefiles, by their extension in lower case.
+/// \throw Error invalid_file
 void refuse_foreign_map(const std::string& extension, const std::string& name);
 
 /// Refuses the atoms of LAMMPS, VASP and XYZ files, and documents of XML, by how a text begins.

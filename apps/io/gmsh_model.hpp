@@ -29,7 +29,8 @@ struct GmshModel {
 /// Of a volume: all corners, edges, walls and cells; walls have triangles, and cells no elements, so that
 /// Gmsh fills them. Of a polygon or surface: the walls as lines and the cells as triangles, fans in their
 /// pieces. Groups: each cell, the walls, and the boundary: its facets, or all of it where they are elements
-/// of a mesh. \throw Error write_failed if the cells do not fit together (names the file)
+/// of a mesh.
+/// \throw Error write_failed if the cells do not fit together (names the file)
 GmshModel gmsh_model(const std::string& path, const DiagramOutput& output);
 
 }  // namespace powercell::io

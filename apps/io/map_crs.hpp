@@ -45,10 +45,12 @@ bool is_in_degrees(const std::string& name);
 /// Whether two names mean the same coordinates.
 bool is_same_crs(const std::string& a, const std::string& b);
 
-/// From the coordinates of one system to those of another. \throw Error invalid_argument
+/// From the coordinates of one system to those of another.
+/// \throw Error invalid_argument
 std::unique_ptr<PointMap> map_between(const std::string& from, const std::string& to);
 
-/// To longitude and latitude of the system's own datum. \throw Error invalid_argument
+/// To longitude and latitude of the system's own datum.
+/// \throw Error invalid_argument
 std::unique_ptr<PointMap> map_to_degrees(const Crs& crs);
 
 /// Lambert's azimuthal equal-area projection of longitude and latitude on an ellipsoid. Longitudes are

@@ -16,7 +16,8 @@ namespace powercell::io {
 class MapPlane {
  public:
   /// Lambert's equal-area plane about the middle of the polygons, which are given in the coordinates of
-  /// `crs`. \throw Error invalid_argument, invalid_domain (polygons that reach around the globe)
+  /// `crs`.
+  /// \throw Error invalid_argument, invalid_domain (polygons that reach around the globe)
   MapPlane(const Crs& crs, std::vector<PolygonPart> parts);
 
   /// The polygons in the plane, in metres.

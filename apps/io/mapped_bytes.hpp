@@ -29,7 +29,8 @@ class MappedBytes {
   std::string stamp_;
 };
 
-/// The same of a file of this path at present. \throw Error invalid_file
+/// The same of a file of this path at present.
+/// \throw Error invalid_file
 std::string stamp_of(const std::string& path);
 
 }  // namespace powercell::io

@@ -23,12 +23,14 @@ struct PageText {
   const std::string& description;
 };
 
-/// Writes what the painter draws on a picture of that size in pixels. \throw Error write_failed
+/// Writes what the painter draws on a picture of that size in pixels.
+/// \throw Error write_failed
 void paint_png(const std::string& path, double width, double height, const Painter& paint);
 void paint_pdf(const std::string& path, double width, double height, const PageText& text,
                const Painter& paint, double units_per_inch = 96);
 
-/// Draws a flat picture as PNG or PDF. \throw Error write_failed
+/// Draws a flat picture as PNG or PDF.
+/// \throw Error write_failed
 void draw_png(const std::string& path, const Scene& scene);
 void draw_pdf(const std::string& path, const Scene& scene);
 
@@ -42,7 +44,9 @@ struct PixelCanvas {
   int width, height, left = 0, top = 0;
   Painter over = {};
 };
-/// Writes a PNG. \pre the pixels lie on the canvas  \throw Error write_failed
+/// Writes a PNG.
+/// \pre the pixels lie on the canvas
+/// \throw Error write_failed
 void write_pixels(const std::string& path, const Pixels& pixels, const PixelCanvas& canvas);
 
 }  // namespace powercell::io

@@ -44,7 +44,9 @@ struct LegendScene {
 };
 
 /// At most half as wide as the picture and as high: its text is smaller if there is much of it. The upper
-/// left corner is at 0, 0. \param width  of the picture  \param height  of the picture, or its largest
+/// left corner is at 0, 0.
+/// \param width  of the picture
+/// \param height  of the picture, or its largest
 LegendScene lay_out(const Legend& legend, double width, double height);
 
 void draw_legend(cairo_t* to, const LegendScene& scene);

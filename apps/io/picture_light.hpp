@@ -25,7 +25,8 @@ struct Light {
 
 /// The light at each pixel of a picture. Everything lies within distance 1 of the origin, except places that
 /// no triangle shades.
-/// \param places  row-major   \param sun  unit vector towards it
+/// \param places  row-major
+/// \param sun  unit vector towards it
 std::vector<Light> light_on(const std::vector<Place>& places, int width, std::span<const Triangle> triangles,
                             Vec3 sun);
 

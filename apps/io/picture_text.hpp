@@ -17,11 +17,12 @@ void select_font(cairo_t* to, bool bold, double size);
 /// Width of a text of one em in the pictures' font.
 double text_width(const std::string& text, bool bold);
 
-/// The text, or its beginning with an ellipsis, at most `most` ems wide. \pre valid UTF-8
+/// The text, or its beginning with an ellipsis, at most `most` ems wide.
+/// \pre valid UTF-8
 std::string shortened(const std::string& text, double most, bool bold);
 
-/// Draws a text whose middle line is at y, or adds its outline to the path. \param share  of its width that
-/// lies left of x
+/// Draws a text whose middle line is at y, or adds its outline to the path.
+/// \param share  of its width that lies left of x
 void show_text(cairo_t* to, const std::string& text, double x, double y, double share);
 void add_text_path(cairo_t* to, const std::string& text, double x, double y, double share);
 

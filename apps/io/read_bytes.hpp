@@ -86,7 +86,8 @@ class ByteScanner {
     return value;
   }
 
-  /// The same for a type known at run time, rounded to a double. \param what  the item, for messages
+  /// The same for a type known at run time, rounded to a double.
+  /// \param what  the item, for messages
   double next(NumberType type, const char* what) {
     return with_number_type(type,
                             [&](auto number) { return static_cast<double>(next<decltype(number)>(what)); });

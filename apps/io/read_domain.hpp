@@ -38,7 +38,8 @@ DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKin
 std::string describe(const DomainArrays& arrays, const std::string& spec);
 LoadedDomain load_domain(DomainArrays arrays, const std::string& spec);
 
-/// The arrays from memory. \param extension lower case with its dot, e.g. ".off"
+/// The arrays from memory.
+/// \param extension lower case with its dot, e.g. ".off"
 DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
                           std::optional<DomainKind> kind, const std::string& name);
 

@@ -72,7 +72,8 @@ class FieldNumbers {
   char separator_, mark_ = '\0';  // '\0' until a number has one
 };
 
-/// The whole field as a finite double. \param mark  ',' or '.', the only one allowed
+/// The whole field as a finite double.
+/// \param mark  ',' or '.', the only one allowed
 Parsed parse_number(std::string_view field, char mark, double& value);
 
 /// In lower case, without blanks at both ends.

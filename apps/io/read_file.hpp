@@ -10,15 +10,17 @@
 
 namespace powercell::io {
 
-/// The bytes of a regular file. \param words  names that could stand in place of the file, for the message
-/// where there is none: the closest of them and of the files beside is proposed
+/// The bytes of a regular file.
+/// \param words  names that could stand in place of the file, for the message where there is none: the
+/// closest of them and of the files beside is proposed
 /// \throw Error invalid_file (missing, a directory, unreadable, empty)
 std::string read_file(const std::string& path, std::span<const std::string> words = {});
 
 /// ".off" for "a/b/Mesh.OFF"; empty if the name has none.
 std::string lower_extension(const std::string& path);
 
-/// Refuses an output file whose extension is not in the list. \param known  e.g. ".svg .png"
+/// Refuses an output file whose extension is not in the list.
+/// \param known  e.g. ".svg .png"
 /// \throw Error invalid_file
 void check_extension(const std::string& path, std::string_view known);
 

@@ -14,7 +14,8 @@ namespace powercell::io {
 bool is_geopackage(const std::string& name);
 
 /// The points of a layer, with all columns but geometries and blobs. Without the name of a layer, the file
-/// has one of points. \throw Error invalid_file
+/// has one of points.
+/// \throw Error invalid_file
 FeatureRows read_geopackage_points(const std::string& name, std::size_t dimension);
 
 /// The union of the polygons of a layer. Without the name of a layer, the file has one of polygons.

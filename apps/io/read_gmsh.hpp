@@ -60,7 +60,8 @@ class GmshNodes {
   std::unordered_map<std::uint64_t, std::uint32_t> place_of_;
 };
 
-/// Adds an element to the mesh. \param nodes  indices of vertices, as many as the kind has nodes
+/// Adds an element to the mesh.
+/// \param nodes  indices of vertices, as many as the kind has nodes
 void add_gmsh_element(const GmshElement& kind, const std::uint32_t* nodes, std::uint64_t tag, MeshFile& mesh);
 
 /// The element of Gmsh's number `type`; refuses unknown numbers.

@@ -20,8 +20,9 @@ struct GrayImage {
 
 /// The luminance, in linear light, of a PNG or JPEG of any kind, turned as its Exif orientation says.
 /// Transparent parts show white paper. Channels are sRGB unless a PNG's cICP or gAMA says otherwise; ICC
-/// profiles are not applied. \param colours  whether the channels are wanted too \throw Error invalid_file
-/// (not a PNG or JPEG, damaged, or more than 2^28 pixels)
+/// profiles are not applied.
+/// \param colours  whether the channels are wanted too
+/// \throw Error invalid_file (not a PNG or JPEG, damaged, or more than 2^28 pixels)
 GrayImage read_image(const std::string& path, bool colours = false);
 /// The same from memory.
 GrayImage parse_image(std::string_view bytes, const std::string& name, bool colours = false);

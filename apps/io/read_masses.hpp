@@ -21,7 +21,8 @@ std::vector<double> read_masses(const std::string& path, const std::string& colu
 std::vector<double> parse_masses(std::string_view text, const std::string& column, std::size_t seeds,
                                  const std::string& name);
 
-/// A column of the seeds' own table, which has a header. \param name  of the table, for messages
+/// A column of the seeds' own table, which has a header.
+/// \param name  of the table, for messages
 std::vector<double> masses_of_table(const SeedTable& seeds, const std::string& column,
                                     const std::string& name);
 

@@ -46,8 +46,8 @@ std::size_t checked_vertex_count(std::uint64_t count, const std::string& name);
 std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& name);
 
 /// Appends the triangles of one face, three corners each: a convex one as a fan from its first corner.
-/// \param vertices  rows of 3 \return false for a concave one of more than 4,096 corners, of which none are
-/// appended
+/// \param vertices  rows of 3
+/// \return false for a concave one of more than 4,096 corners, of which none are appended
 bool append_triangles(const std::vector<double>& vertices, std::span<const std::uint32_t> corners,
                       std::vector<std::uint32_t>& triangles);
 

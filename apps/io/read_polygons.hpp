@@ -20,12 +20,14 @@ struct NamedCrs {
 };
 
 /// Polygon, MultiPolygon, GeometryCollection, Feature or FeatureCollection. Coordinates are those of the
-/// file, whatever its system. Several geometries are united. \param crs  if not null, the file's system
+/// file, whatever its system. Several geometries are united.
+/// \param crs  if not null, the file's system
 std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name,
                                        NamedCrs* crs = nullptr);
 
 /// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION, also EMPTY; several are united. An `SRID=n;`
-/// in front must be the same for all. \param crs  if not null, EPSG:n
+/// in front must be the same for all.
+/// \param crs  if not null, EPSG:n
 std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name, NamedCrs* crs = nullptr);
 
 /// Largest distance between a curve of an SVG file and its polygon, over the diagonal of the drawing.

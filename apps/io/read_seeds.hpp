@@ -72,11 +72,13 @@ struct SeedTable {
 };
 
 /// \param spec  text or CSV, `-` for those from standard input, points in GeoJSON or a GeoPackage, `.npy`, or
-/// `random:N[:LO:HI[:SEED]]` \param domain  sets the dimension of the seeds, and the positions of random ones
+/// `random:N[:LO:HI[:SEED]]`
+/// \param domain  sets the dimension of the seeds, and the positions of random ones
 /// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
 SeedTable read_seeds(const std::string& spec, const Domain& domain, const ColumnChoice& choice = {});
 
-/// The same of a file alone. \param dimension  2 or 3
+/// The same of a file alone.
+/// \param dimension  2 or 3
 SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice);
 
 /// Seeds from rows `x y [z] w`, or from the named columns below a header.

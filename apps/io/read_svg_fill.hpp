@@ -9,7 +9,8 @@
 namespace powercell::io {
 
 /// The area where the winding number of all `rings` together is odd (even_odd) or not zero. Rings may cross
-/// themselves and each other. \throw Error invalid_file
+/// themselves and each other.
+/// \throw Error invalid_file
 std::vector<PolygonPart> fill(const std::vector<Ring>& rings, bool even_odd, const std::string& name);
 
 }  // namespace powercell::io

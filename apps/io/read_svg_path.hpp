@@ -40,7 +40,8 @@ struct SvgError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The outlines of the attribute `d` of a path. \throw SvgError
+/// The outlines of the attribute `d` of a path.
+/// \throw SvgError
 std::vector<SvgOutline> parse_svg_path(std::string_view d);
 
 /// An arc of an ellipse appended to `outline`, by the rules of SVG 1.1 appendix F.6.
@@ -48,10 +49,12 @@ std::vector<SvgOutline> parse_svg_path(std::string_view d);
 void add_svg_arc(SvgOutline& outline, double rx, double ry, double rotation, bool large, bool sweep,
                  const SvgPoint& end);
 
-/// The value of an attribute `transform`. \throw SvgError
+/// The value of an attribute `transform`.
+/// \throw SvgError
 SvgTransform parse_svg_transform(std::string_view text);
 
-/// All numbers of a list separated by blanks and commas. \throw SvgError
+/// All numbers of a list separated by blanks and commas.
+/// \throw SvgError
 std::vector<double> parse_svg_numbers(std::string_view text);
 
 void transform(SvgOutline& outline, const SvgTransform& by);

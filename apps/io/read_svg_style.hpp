@@ -21,7 +21,8 @@ using SvgProperties = std::map<std::string, std::string, std::less<>>;
 class SvgStyle {
  public:
   /// Adds the rules of a sheet. Selectors may be a tag, a .class, an #id, * or a list of these; rules with
-  /// other selectors must not set a kept property. \throw SvgError
+  /// other selectors must not set a kept property.
+  /// \throw SvgError
   void add(std::string_view sheet) { add(sheet, {}, 0); }
 
   /// The properties of an element from the sheets and its attribute `style`, by CSS's precedence.

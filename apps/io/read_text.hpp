@@ -52,7 +52,8 @@ class TextScanner {
   std::optional<std::string_view> line();
 
   /// Refuses a count of items that does not fit in the rest of the text, so that a wrong header is an error
-  /// and not an allocation. \param least  bytes that each item takes at least
+  /// and not an allocation.
+  /// \param least  bytes that each item takes at least
   void check_count(std::uint64_t count, std::size_t least, const char* things) const;
 
   std::size_t line_number() const { return last_line_; }  ///< of the last word or line read, from 1

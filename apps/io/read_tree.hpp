@@ -49,13 +49,15 @@ struct TreeColumnNames {
 /// A header without a parent column may name other shapes: `name,value`; `id,value` with paths (a/b/c, or
 /// a.b.c if all groups have rows); or the levels from the top down, in the columns before `value`. A first
 /// line "sep=;" is skipped. Several roots get a root above them. Values of nodes with children are not used
-/// and may be missing; a note tells where they differ from the sum of the leaves. \throw Error invalid_file
-/// for a cycle, an orphan, a repeated id, or a value that is not a number (which
-///   row)
+/// and may be missing; a note tells where they differ from the sum of the leaves.
+/// \throw Error invalid_file for a cycle, an orphan, a repeated id, or a value that is not a number (which
+/// row)
 /// \throw Error invalid_argument if there is no column of a name
 NamedTree read_tree(const std::string& path, const TreeColumnNames& named = {});
 
-/// The same from memory. \param extension lower case with its dot  \param name  for messages
+/// The same from memory.
+/// \param extension lower case with its dot
+/// \param name  for messages
 NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name,
                      const TreeColumnNames& named = {});
 
@@ -71,7 +73,8 @@ struct EarlierLayout {
 };
 /// \throw Error invalid_file if it is not a layout written by `write_treemap` (which element)
 EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree);
-/// The same from memory. \param name  for messages
+/// The same from memory.
+/// \param name  for messages
 EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree, const std::string& name);
 
 }  // namespace powercell::io

@@ -210,7 +210,8 @@ void add_polygon(const json& element, EarlierLayout& layout, std::size_t place, 
   }
 }
 
-/// -1 if missing, as in files of earlier versions. \param key  "hue" or "shade"
+/// -1 if missing, as in files of earlier versions.
+/// \param key  "hue" or "shade"
 std::int64_t number_of(const json& element, const char* key) {
   constexpr std::int64_t most = 1'000'000'000;  // more branches have no colours of their own
   const json* hue = member(element, {key});

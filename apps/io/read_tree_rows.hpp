@@ -17,14 +17,16 @@ struct TreeRow {
   std::size_t place = 0;  ///< line of a table, or number of an element of a list from 1
 };
 
-/// Links the rows to a tree. \param file  for messages
+/// Links the rows to a tree.
+/// \param file  for messages
 /// \param lines  whether `place` is a line ("f.csv:12: "), else an element ("f.json: element 12: ")
 /// \param repeated  what to do about an id that two rows have; empty if nothing is known
 /// \throw Error invalid_file as read_tree
 NamedTree link_rows(std::vector<TreeRow> rows, const std::string& file, bool lines,
                     const std::string& repeated = "");
 
-/// The formats of read_tree. \throw Error invalid_file
+/// The formats of read_tree.
+/// \throw Error invalid_file
 NamedTree parse_tree_table(std::string_view text, const std::string& name, const TreeColumnNames& named);
 NamedTree parse_tree_json(std::string_view text, const std::string& name, const TreeColumnNames& named);
 NamedTree scan_folder(const std::string& path);

@@ -17,8 +17,9 @@ struct VtkCells {
 };
 
 /// Adds the cells to `mesh`: tetrahedra and faces (triangle, quadrilateral, polygon, pixel, strip); points
-/// and lines are skipped. \param base  added to each index (for several pieces in a file) \throw Error
-/// invalid_file (which cell)
+/// and lines are skipped.
+/// \param base  added to each index (for several pieces in a file)
+/// \throw Error invalid_file (which cell)
 void add_vtk_cells(const VtkCells& cells, std::size_t base, const std::string& name, MeshFile& mesh);
 
 }  // namespace powercell::io

@@ -19,7 +19,8 @@ struct VtuStorage {
   bool appended_raw = false;  ///< else base64
 };
 
-/// Bytes of one array. `text` begins with the array (base64: inline or appended). \throw Error
+/// Bytes of one array. `text` begins with the array (base64: inline or appended).
+/// \throw Error
 std::string decode_vtu_base64(std::string_view text, const VtuStorage& storage, const std::string& name);
 std::string decode_vtu_raw(std::string_view bytes, const VtuStorage& storage, const std::string& name);
 

@@ -13,8 +13,10 @@ struct Ticks {
   int exponent = 0;                ///< a multiple of 3; 0 for numbers that are short without it
 };
 
-/// Multiples of 1, 2 or 5 times a power of ten from low to high, two at least. \pre low < high, both finite
-/// \param whole  only whole numbers; low and high are whole  \param most  their largest number, 6 at least
+/// Multiples of 1, 2 or 5 times a power of ten from low to high, two at least.
+/// \pre low < high, both finite
+/// \param whole  only whole numbers; low and high are whole
+/// \param most  their largest number, 6 at least
 Ticks round_ticks(double low, double high, bool whole, int most);
 
 /// "×10⁶", for a title; empty for an exponent of 0.

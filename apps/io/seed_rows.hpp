@@ -40,8 +40,8 @@ class FieldWriter {
 /// them in those.
 class SeedRows {
  public:
-  /// Writes the header. \param results  names of the columns after the weight; "centroid" stands for
-  /// cx,cy[,cz]
+  /// Writes the header.
+  /// \param results  names of the columns after the weight; "centroid" stands for cx,cy[,cz]
   SeedRows(const std::string& path, const SeedsView& seeds, const InputView& inputs,
            std::initializer_list<std::string_view> results);
 

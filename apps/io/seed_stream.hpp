@@ -28,7 +28,8 @@ class SeedStream {
   /// Tells this file, as it is, and the columns from others, and from itself after a change.
   std::string stamp() const { return file_.stamp() + choice_name_; }
   /// Reads the seeds first, first + 1, ...: as many as there are weights. Text is read from its beginning if
-  /// these do not follow those before. \throw Error as the constructor
+  /// these do not follow those before.
+  /// \throw Error as the constructor
   void read(std::uint64_t first, std::span<double> positions, std::span<double> weights);
   /// \throw Error invalid_file if somebody has written to the file
   void require_unchanged() const;

@@ -17,7 +17,8 @@ namespace powercell::io {
 SeedColumns columns_by_header(const RowSource& rows, const Fields& header, std::size_t dimension,
                               const ColumnChoice& choice);
 
-/// For a table without a header: by the numbers of `choice`, else by order. \throw Error invalid_file
+/// For a table without a header: by the numbers of `choice`, else by order.
+/// \throw Error invalid_file
 SeedColumns columns_by_order(const RowSource& rows, std::size_t count, std::size_t dimension,
                              const ColumnChoice& choice);
 

@@ -15,12 +15,14 @@ namespace powercell::io {
 /// at a time.
 class NpySeeds {
  public:
-  /// \param bytes  of the file; not copied \throw Error invalid_file
+  /// \param bytes  of the file; not copied
+  /// \throw Error invalid_file
   NpySeeds(std::string_view bytes, int dimension, const std::string& name);
 
   std::uint64_t rows() const { return rows_; }
   /// Reads the rows first, first + 1, ...: as many as there are weights. Without a column of weights these
-  /// are 0. \throw Error invalid_seed with the row and column of a number that is not finite
+  /// are 0.
+  /// \throw Error invalid_seed with the row and column of a number that is not finite
   void read(std::uint64_t first, std::span<double> positions, std::span<double> weights) const;
 
  private:

@@ -101,7 +101,14 @@ WayIn other_units(const SeedBox& box, std::span<const double> positions) {
   if (d == 2 && like_degrees(box) && like_lengths(extent)) way.kind = WayIn::Kind::seeds_in_lengths;
   if (d == 2 && like_lengths(box) && like_degrees(extent)) way.kind = WayIn::Kind::seeds_in_degrees;
   if (way.kind != WayIn::Kind::none) return way;
+  // Seeds of another unit are spread over the box; others come near its corner with any small factor.
+  constexpr double least_spread = 0.2;
   for (const double factor : {1e3, 1e-3, 1e2, 1e-2, 1e1, 1e-1}) {
+    bool spread = false;
+    for (std::size_t k = 0; k < d; ++k)
+      spread =
+          spread || factor * (extent.high[k] - extent.low[k]) > least_spread * (box.high[k] - box.low[k]);
+    if (!spread) continue;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < n; ++i) {
       std::array<double, 3> p{};

@@ -32,7 +32,8 @@ class SeedsReader {
         numbers_(rows.separator()) {
     table_.dimension = dimension;
   }
-  /// Reads the next seed. \return whether there is one
+  /// Reads the next seed.
+  /// \return whether there is one
   bool next();
   const std::array<double, 3>& position() const { return position_; }
   double weight() const { return weight_; }

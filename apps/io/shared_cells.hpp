@@ -47,7 +47,8 @@ struct SharedCells {
 /// \throw Error as share_points()
 SharedCells share_cells(const DiagramOutput& output);
 
-/// The joined cells, each with points of its own and without `twin`. \param fault  kept
+/// The joined cells, each with points of its own and without `twin`.
+/// \param fault  kept
 SharedCells separate_cells(const DiagramOutput& output, std::string fault);
 
 /// As share_cells(), for a file that has no use for cells that do not fit together.

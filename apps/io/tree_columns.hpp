@@ -22,13 +22,15 @@ struct TreeColumns {
   bool is_linked() const { return place[id_column] && place[parent_column]; }
 };
 
-/// By a header; none if this is no header. \param value  the name of the column of values; empty to find it
+/// By a header; none if this is no header.
+/// \param value  the name of the column of values; empty to find it
 /// \throw Error invalid_argument if there is no such column; invalid_file (`where`) if there are parents and
 /// no column of ids
 std::optional<TreeColumns> find_tree_columns(const Fields& header, const std::string& value,
                                              const std::string& where);
 
-/// The place of a column in a header. \throw Error invalid_argument
+/// The place of a column in a header.
+/// \throw Error invalid_argument
 std::size_t place_of_column(const Fields& header, const char* option, const std::string& column);
 
 /// The names of a header, for messages.

@@ -45,7 +45,8 @@ struct TreemapScene {
 constexpr double label_halo = 0.16;
 constexpr double halo_opacity = 0.85;  ///< ink on it is legible over dark cells too
 
-/// The widest wall of cells at that depth. \param scale  of the picture, 1 for 1600 pixels
+/// The widest wall of cells at that depth.
+/// \param scale  of the picture, 1 for 1600 pixels
 double widest_wall(std::uint32_t depth, double scale);
 
 TreemapScene make_treemap_scene(const TreemapOutput& output, const TreemapStyle& style);
@@ -54,11 +55,13 @@ TreemapScene make_treemap_scene(const TreemapOutput& output, const TreemapStyle&
 /// nodes vary it.
 std::vector<Colour> treemap_colours(const TreemapOutput& output);
 
-/// The same, or the values of the tree's colour column with a legend. \param legend  whether one is wanted
+/// The same, or the values of the tree's colour column with a legend.
+/// \param legend  whether one is wanted
 Colouring treemap_colouring(const TreemapOutput& output, bool legend);
 
 /// Adds names that fit into their cells, large groups first. No label touches another, nor a wall of its cell
-/// or of a cell around it; that of a group lies over the walls within. \param scale  as for widest_wall
+/// or of a cell around it; that of a group lies over the walls within.
+/// \param scale  as for widest_wall
 void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output, double scale);
 
 void draw_treemap_svg(const std::string& path, const TreemapScene& scene, const TreemapOutput& output);

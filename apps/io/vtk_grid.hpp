@@ -26,7 +26,8 @@ struct VtkGrid {
 VtkGrid grid_of_pieces(const DiagramOutput& output);
 
 /// One polyhedron for each cell of a volume; walls are the same face in both cells.
-/// \param path  for the message \throw Error write_failed if the cells do not fit together
+/// \param path  for the message
+/// \throw Error write_failed if the cells do not fit together
 VtkGrid grid_of_cells(const std::string& path, const DiagramOutput& output);
 
 }  // namespace powercell::io

@@ -10,8 +10,10 @@
 
 namespace powercell::io {
 
-/// The triangles of a polygon in a plane, three points each, in its direction. \param points  rows of 3
-/// \param path  for the message \throw Error write_failed (a concave polygon of thousands of corners)
+/// The triangles of a polygon in a plane, three points each, in its direction.
+/// \param points  rows of 3
+/// \param path  for the message
+/// \throw Error write_failed (a concave polygon of thousands of corners)
 std::vector<std::uint32_t> triangles_of(const std::string& path, const std::vector<double>& points,
                                         std::vector<std::uint32_t> loop);
 

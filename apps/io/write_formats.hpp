@@ -54,7 +54,8 @@ void write_json(const std::string& path, const DiagramOutput& output);
 
 /// One page for a browser, which needs nothing else: it turns, slices and colours the cells, and shows the
 /// row of a cell that is chosen. view/data.hpp describes what it holds. Of volumes up to most_seeds_in_view,
-/// elsewhere four times as many. \throw Error unsupported for more, or too many triangles
+/// elsewhere four times as many.
+/// \throw Error unsupported for more, or too many triangles
 void write_html(const std::string& path, const DiagramOutput& output);
 constexpr std::size_t most_seeds_in_view = 250'000;
 

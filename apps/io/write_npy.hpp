@@ -17,7 +17,8 @@ std::string npy_type(std::string_view type);
 class NpyWriter {
  public:
   /// \param type  of npy_type(), or a list of fields "[('a', '<f8'), ('b', '|u1')]"
-  /// \param rows  that will be written \throw Error write_failed
+  /// \param rows  that will be written
+  /// \throw Error write_failed
   NpyWriter(const std::string& path, std::string_view type, std::uint64_t rows);
 
   /// A number, or a field of a row, of the size that the type says.

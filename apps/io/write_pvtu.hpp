@@ -22,7 +22,8 @@ struct VtuPiece {
 /// \throw Error write_failed
 void write_vtu_piece(const std::string& path, const VtuPiece& piece);
 
-/// Writes the file that names all pieces. \throw Error write_failed
+/// Writes the file that names all pieces.
+/// \throw Error write_failed
 void write_pvtu(const std::string& path, int pieces);
 
 }  // namespace powercell::io

@@ -24,20 +24,23 @@ struct TreemapOutput {
 };
 
 /// Numbers the branches below the root to choose their hues, the largest branch first; close numbers have
-/// distant hues. A branch with a number in an earlier layout keeps it, the others get free numbers. \param
-/// earlier  n, as in EarlierLayout; may be empty \return n; -1 for all other nodes
+/// distant hues. A branch with a number in an earlier layout keeps it, the others get free numbers.
+/// \param earlier  n, as in EarlierLayout; may be empty
+/// \return n; -1 for all other nodes
 std::vector<std::int64_t> number_branches(const Treemap& map, std::span<const std::int64_t> earlier);
 
 /// Shades, from 0 to group_shades - 1, of the groups two levels below the root: groups of a branch with a
 /// common border differ, unless earlier shades forbid it. A group keeps its shade of an
-/// earlier layout if that allows it. \param parent  n, as in the tree \param earlier  n, as in EarlierLayout;
-/// may be empty \return n; -1 for all other nodes
+/// earlier layout if that allows it.
+/// \param parent  n, as in the tree
+/// \param earlier  n, as in EarlierLayout; may be empty
+/// \return n; -1 for all other nodes
 std::vector<std::int64_t> number_groups(const Treemap& map, std::span<const std::int64_t> parent,
                                         std::span<const std::int64_t> earlier);
 constexpr std::int64_t group_shades = 6;
 
-/// To be called before a long computation. \throw Error invalid_argument if the colour column has more texts
-/// than can be told apart
+/// To be called before a long computation.
+/// \throw Error invalid_argument if the colour column has more texts than can be told apart
 void check_tree_colours(const NamedTree& tree);
 
 struct TreemapStyle {

@@ -87,8 +87,9 @@ float single(double x) {
   return std::numeric_limits<float>::infinity();
 }
 
-/// STL has single precision. \throw Error write_failed if that changes an edge by more than half of its
-/// length, so that triangles may lose their area or fold over
+/// STL has single precision.
+/// \throw Error write_failed if that changes an edge by more than half of its length, so that triangles may
+/// lose their area or fold over
 void require_single_precision(const std::string& path, const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
     for (std::size_t c = 0; c < 3; ++c) {

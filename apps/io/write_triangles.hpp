@@ -14,7 +14,8 @@ inline constexpr std::string_view triangle_files = ".off .obj .ply .stl";
 void check_triangle_output(const std::string& path);
 
 /// Writes a mesh by the extension of `path`: OFF and OBJ as text in full precision, PLY and STL binary (STL
-/// in single precision). \throw Error invalid_file (extension), write_failed
+/// in single precision).
+/// \throw Error invalid_file (extension), write_failed
 void write_triangles(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace powercell::io

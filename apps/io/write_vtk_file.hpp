@@ -18,7 +18,8 @@ class VtkFile {
   /// \param type "UnstructuredGrid", "PolyData" or "PUnstructuredGrid"
   VtkFile(const std::string& path, std::string_view type);
 
-  /// Opens an element. \param attributes  e.g. `NumberOfPoints="8"`, already escaped
+  /// Opens an element.
+  /// \param attributes  e.g. `NumberOfPoints="8"`, already escaped
   void open(std::string_view element, std::string_view attributes = {});
   void close(std::string_view element);
   /// An element without content.
@@ -29,7 +30,8 @@ class VtkFile {
     array_bytes(name, type_name<T>(), components,
                 {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
-  /// Ends the file and gives it its name. \throw Error write_failed
+  /// Ends the file and gives it its name.
+  /// \throw Error write_failed
   void finish();
 
  private:

@@ -11,7 +11,8 @@ class Option;
 
 namespace powercell::app {
 
-/// The page for man(1) of the tool, or of one of its commands. \param command  `app` or a command of it
+/// The page for man(1) of the tool, or of one of its commands.
+/// \param command  `app` or a command of it
 /// \param date  of the page, as YYYY-MM-DD
 std::string manual_page(const CLI::App& app, const CLI::App& command, const std::string& date);
 

@@ -14,7 +14,8 @@ std::vector<T> part(const std::vector<T>& values, std::uint64_t begin, std::uint
           values.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-/// \param begin, end  rows of `own` \param first  of the rank
+/// \param begin, end rows of `own`
+/// \param first  of the rank
 CellRows rows_from(const DistributedCells& own, std::uint64_t first, std::uint64_t begin, std::uint64_t end) {
   const auto d = static_cast<std::uint64_t>(own.measures.dimension);
   CellRows rows;
@@ -43,7 +44,8 @@ void send(const Ranks& ranks, const CellRows& rows) {
   ranks.send_to_first(rows.shift);
 }
 
-/// \param from  the rank \param rows  receives all but what is the same on all ranks
+/// \param from  the rank
+/// \param rows  receives all but what is the same on all ranks
 void receive(const Ranks& ranks, int from, CellRows& rows) {
   ranks.receive(from, rows.measures.mass);
   ranks.receive(from, rows.measures.centroid);

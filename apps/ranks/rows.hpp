@@ -18,7 +18,8 @@ struct RowRange {
 RowRange rows_of_rank(std::uint64_t rows, int rank, int ranks);
 
 /// Writes the cells of all ranks from the first one, some rows at a time. All ranks call it.
-/// \param own  of the rows of this rank, in their order \throw Error of CellFiles
+/// \param own  of the rows of this rank, in their order
+/// \throw Error of CellFiles
 void write_rows(Ranks& ranks, const DistributedCells& own, std::uint64_t rows, CellFiles& files);
 
 }  // namespace powercell::app

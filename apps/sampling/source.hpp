@@ -34,7 +34,8 @@ Source read_source(const SourceArguments& arguments);
 /// Radii of dots. For an image the ink in each cell equals that of the image there; else all radii are equal.
 std::vector<double> dot_radii(const Device& device, const Source& source, const SamplingResult& points);
 
-/// The mean colour of the inked parts of the image in each cell. \pre source.image has channels
+/// The mean colour of the inked parts of the image in each cell.
+/// \pre source.image has channels
 std::vector<io::Colour> dot_colours(const Device& device, const Source& source, const SamplingResult& points);
 
 }  // namespace powercell::app

@@ -26,8 +26,9 @@ struct TuneJob {
 class TunedRun {
  public:
   virtual ~TunedRun() = default;
-  /// Computes the diagram. \return seconds, without those of building kernels. \throw Error internal if the
-  /// measures of a Diagram do not sum to the domain's
+  /// Computes the diagram.
+  /// \return seconds, without those of building kernels.
+  /// \throw Error internal if the measures of a Diagram do not sum to the domain's
   virtual double time() = 0;
   /// All measures of the last time, the same bits with any settings.
   virtual std::vector<double> measures() const = 0;

@@ -37,8 +37,9 @@ struct TuneRecord {
 };
 
 /// Changes one setting after the other where that is faster beyond the scatter of the runs, and at the end
-/// times the result against where it began once more. \param said  called after each step \throw Error
-/// interrupted; internal if results depend on a setting, which they must not
+/// times the result against where it began once more.
+/// \param said  called after each step
+/// \throw Error interrupted; internal if results depend on a setting, which they must not
 TuneRecord tune(const TuneArguments& arguments, const std::function<void(const TuneStep&)>& said);
 
 }  // namespace powercell::app

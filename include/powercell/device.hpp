@@ -44,8 +44,9 @@ struct DeviceInfo {
 POWERCELL_API const char* name(DeviceInfo::Type type) noexcept;
 
 /// All devices of all platforms, in the order of the ICD loader. Empty without a platform or an OpenCL
-/// loader. Those that cannot be used are left out (unusable_devices), with a line in the log. \throw Error
-/// opencl if the platforms cannot be listed; unsupported in a process that was forked after OpenCL was used.
+/// loader. Those that cannot be used are left out (unusable_devices), with a line in the log.
+/// \throw Error opencl if the platforms cannot be listed; unsupported in a process that was forked after
+/// OpenCL was used.
 POWERCELL_API std::vector<DeviceInfo> devices();
 
 /// A device that OpenCL lists and that cannot be used, or a platform that cannot list its devices.
@@ -56,7 +57,8 @@ struct UnusableDevice {
   std::string reason;  ///< one line
 };
 
-/// What devices() leaves out. \throw Error as devices()
+/// What devices() leaves out.
+/// \throw Error as devices()
 POWERCELL_API std::vector<UnusableDevice> unusable_devices();
 
 /// Compilation of kernels in this process, on all devices and in all threads.
@@ -78,9 +80,10 @@ class POWERCELL_API Device {
   /// commas between name a group of them, and "all" one of all devices, the best first. A device is returned
   /// only if it passes a self-test (primitives with known results). Without a wish, and for "gpu", "cpu" and
   /// "all", a device that fails is set aside, with a line in the log, and the next one is taken; a device
-  /// that is named is refused with the reason. \throw Error device_not_found, self_test_failed, build_failed,
-  /// out_of_device_memory, opencl; invalid_argument (a device that is named twice); unsupported (a process
-  /// that was forked after OpenCL was used)
+  /// that is named is refused with the reason.
+  /// \throw Error device_not_found, self_test_failed, build_failed, out_of_device_memory, opencl;
+  /// invalid_argument (a device that is named twice); unsupported (a process that was forked after OpenCL
+  /// was used)
   static Device choose(std::string_view selector = {});
 
   /// Several devices as one. A diagram shares the clipping of its cells out to all of them by their speeds,

@@ -30,8 +30,8 @@ struct DeviceLatencies {
   double launch_scatter = 0, transfer_scatter = 0;
 };
 
-/// Takes a few milliseconds, and once the time to compile a kernel. \throw Error self_test_failed (a wrong
-/// result); unsupported (a group); build_failed, opencl
+/// Takes a few milliseconds, and once the time to compile a kernel.
+/// \throw Error self_test_failed (a wrong result); unsupported (a group); build_failed, opencl
 POWERCELL_API DeviceLatencies measure_device_latencies(const Device& device);
 
 /// Bytes a second from one memory to the other, measured on the host from the call to its end, each the best

@@ -28,21 +28,23 @@ struct DeviceSettings {
 
 /// Those that the library has for a device of this kind and maker, whatever was measured on it.
 POWERCELL_API DeviceSettings default_settings(const DeviceInfo& device);
-/// Those in use: read from `settings_file` when the device was opened, else the defaults. \throw Error
-/// unsupported for a group
+/// Those in use: read from `settings_file` when the device was opened, else the defaults.
+/// \throw Error unsupported for a group
 POWERCELL_API DeviceSettings settings_of(const Device& device);
-/// Changes those in use, for all copies of `device`. To be called before the first diagram on it. \throw
-/// Error invalid_argument for settings out of range; unsupported for a group
+/// Changes those in use, for all copies of `device`. To be called before the first diagram on it.
+/// \throw Error invalid_argument for settings out of range; unsupported for a group
 POWERCELL_API void use_settings(const Device& device, const DeviceSettings& settings);
 
 /// The file of measured settings of a device, in the folder of compiled kernels (POWERCELL_CACHE_DIR); it
 /// need not exist. A file that is malformed, or of another device, driver or version of the library, is
 /// ignored when the device is opened, with a line in the log. Empty if there is no such folder.
 POWERCELL_API std::string settings_file(const DeviceInfo& device);
-/// Writes that file, as a whole or not at all, for devices opened from now on. \throw Error invalid_argument
-/// for settings out of range; write_failed
+/// Writes that file, as a whole or not at all, for devices opened from now on.
+/// \throw Error invalid_argument for settings out of range; write_failed
 POWERCELL_API void save_settings(const DeviceInfo& device, const DeviceSettings& settings);
-/// Removes that file. \return whether there was one. \throw Error write_failed
+/// Removes that file.
+/// \return whether there was one.
+/// \throw Error write_failed
 POWERCELL_API bool remove_settings(const DeviceInfo& device);
 
 }  // namespace powercell

@@ -81,17 +81,19 @@ class POWERCELL_API Diagram {
 
 /// Builds and tests the kernels that diagrams of this kind run on the device, so that the first one takes no
 /// longer than the next ones: computes three small ones, with all results. What is built lasts as long as a
-/// Device of the process on the same device, and in a cache on disk. \param options  `progress` is called as
-/// by a diagram. \throw as Diagram
+/// Device of the process on the same device, and in a cache on disk.
+/// \param options  `progress` is called as by a diagram.
+/// \throw as Diagram
 POWERCELL_API void prepare(const Device& device, const Domain& domain, const Options& options = {});
 
-/// One-off measures of the cells. \throw as Diagram
+/// One-off measures of the cells.
+/// \throw as Diagram
 POWERCELL_API Measures measure(const Device& device, const Domain& domain, const SeedsView& seeds,
                                const Options& options = {});
 
 /// Joins the pieces of each cell across the regions of the domain. A facet between two pieces stays, with the
-/// border `interior`, where the piece behind it was too thin to be kept (single precision). \throw Error
-/// invalid_argument if the cells belong to another kind of domain
+/// border `interior`, where the piece behind it was too thin to be kept (single precision).
+/// \throw Error invalid_argument if the cells belong to another kind of domain
 POWERCELL_API JoinedCells join(const Domain& domain, const Cells& cells);
 
 }  // namespace powercell

@@ -38,7 +38,8 @@ class POWERCELL_API DistributedLinearSolver {
 
   /// Solves L x = b. All ranks call it at the same time, those without rows too. It must throw on all ranks
   /// or on none, as those that go on would wait for ever. Without a solution it returns the best values that
-  /// it has, or NaN. \param right      b of the rows here; sums to 0 over all ranks if the system is singular
+  /// it has, or NaN.
+  /// \param right  b of the rows here; sums to 0 over all ranks if the system is singular
   /// \param tolerance  of |b - L x| / |b|
   virtual DistributedSolution solve(const DistributedRows& rows, std::span<const double> right,
                                     double tolerance) = 0;

@@ -55,19 +55,23 @@ class POWERCELL_API Domain {
   /// The union of parts with disjoint interiors. Rings and parts may touch in points, and parts along edges,
   /// which then are inside the domain. A ring must not touch itself. Boundary edges are numbered by part,
   /// ring and edge: outer rings counter-clockwise, holes clockwise, each from its first corner; a point where
-  /// another ring touches an edge is a corner too. \throw Error invalid_domain (names the part and the place)
+  /// another ring touches an edge is a corner too.
+  /// \throw Error invalid_domain (names the part and the place)
   static Domain polygon(std::span<const PolygonPart> parts);
 
   /// A triangle mesh in space: open, closed or non-manifold.
-  /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
+  /// \param vertices nv x 3, row-major
+  /// \param triangles nt x 3 indices from 0
   /// Vertices at the same position count as one. Triangles of zero area are left out: those whose least
   /// height is at most 2^-50 of their longest edge. Of triangles with the same corners, in any order, the
   /// first is kept. Triangles that overlap in a plane stay, and their common part counts twice; report()
-  /// names them. \throw Error invalid_domain (names the triangle)
+  /// names them.
+  /// \throw Error invalid_domain (names the triangle)
   static Domain surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
   /// A tetrahedral mesh, each tetrahedron in either orientation.
-  /// \param vertices nv x 3, row-major   \param tetrahedra nt x 4 indices from 0
+  /// \param vertices nv x 3, row-major
+  /// \param tetrahedra nt x 4 indices from 0
   /// Vertices at the same position count as one. Flat tetrahedra are left out: those whose least height
   /// is at most 2^-50 of their longest edge. Of tetrahedra with the same corners the first is kept.
   /// Tetrahedra that overlap are an error if they are on the same side of a facet that they share, or if
@@ -95,7 +99,8 @@ class POWERCELL_API Domain {
   ///               touch otherwise, corners in a line
   static Domain solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
-  /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain
+  /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each).
+  /// \throw Error invalid_domain
   static Domain box(std::span<const double> low, std::span<const double> high);
 
   /// A box whose opposite sides are identified along the axes where `periodic` is true; at least one. The
@@ -108,7 +113,8 @@ class POWERCELL_API Domain {
 
   /// The plane or space modulo the lattice of two vectors of two coordinates, or three of three, row-major,
   /// in any basis and orientation. regions() is the parallelogram or parallelepiped from `origin`, by default
-  /// 0. \throw Error invalid_domain (dependent vectors; a reduced basis with lengths 10^6 times apart)
+  /// 0.
+  /// \throw Error invalid_domain (dependent vectors; a reduced basis with lengths 10^6 times apart)
   static Domain lattice(std::span<const double> vectors, std::span<const double> origin = {});
 
   DomainKind kind() const;
@@ -121,8 +127,9 @@ class POWERCELL_API Domain {
   std::array<std::array<double, 3>, 3> periods() const;
   /// Points moved by whole periods into the domain, but for rounding: the positions that diagrams compute
   /// with. Images of one point are at the same position. Along bounded axes, and in other domains, as they
-  /// are. \param positions  n x dimension(), row-major, finite \throw Error invalid_argument (size),
-  /// invalid_seed (a point more than 2^28 periods outside)
+  /// are.
+  /// \param positions  n x dimension(), row-major, finite
+  /// \throw Error invalid_argument (size), invalid_seed (a point more than 2^28 periods outside)
   std::vector<double> wrapped(std::span<const double> positions) const;
   std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;

@@ -29,7 +29,9 @@ struct LocalDiagram {
 /// Neighbours are those of `cells`, measures and walls differ from theirs by rounding. Clips the cells once
 /// more when results are asked for, which needs no other rank; and at first, all ranks together, in a box
 /// around a domain that is not convex, where walls within the domain do not tell all seeds that cells depend
-/// on. \param cells    of `seeds`, in their order, on all ranks of one call \param options  of the diagram
+/// on.
+/// \param cells  of `seeds`, in their order, on all ranks of one call
+/// \param options  of the diagram
 /// \throw Error invalid_argument (sizes; a neighbour that no rank has), and as Diagram; one of one rank is
 ///        thrown on all
 POWERCELL_API LocalDiagram local_diagram(Communicator& communicator, const Device& device,

@@ -18,8 +18,9 @@ POWERCELL_API Device device_from_queue(cl_command_queue queue);
 
 /// The function of OpenCL that the library calls: that of the process if it has one, else of the system's
 /// loader, which the first call opens. For programs that call OpenCL but are to start where there is none;
-/// they link no loader. \param name  "clCreateBuffer" and so on \return null if there is no loader, or none
-/// with this function
+/// they link no loader.
+/// \param name  "clCreateBuffer" and so on
+/// \return null if there is no loader, or none with this function
 POWERCELL_API void* opencl_function(const char* name);
 
 /// The state of a seed, as DeviceDiagram writes it: the values of SeedStatus, and two more.
@@ -203,8 +204,9 @@ class POWERCELL_API DeviceDiagram {
   /// \param wait_list  these events
   /// \param done       if not null: the event of the last command, for the caller to release
   /// The queue is flushed. After an exception there is no event, commands may still be writing scratch memory
-  /// or results, and the diagram can be used again. \throw Error invalid_argument (a buffer that is too
-  /// small, of another context, or written and shared, which), out_of_device_memory, opencl
+  /// or results, and the diagram can be used again.
+  /// \throw Error invalid_argument (a buffer that is too small, of another context, or written and shared,
+  /// which), out_of_device_memory, opencl
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                cl_uint wait_count = 0, const cl_event* wait_list = nullptr, cl_event* done = nullptr);
   /// The same with all that is wanted.

@@ -17,8 +17,10 @@ namespace powercell {
 /// The device computes the cells inside a box around the seeds, the host those that leave it, as far as 2^80
 /// times the extent of the seeds: a simplex whose centre lies farther out, next to the hull and flat to that
 /// degree, is not found. Coordinates are rounded to multiples of 2^-990 of that extent, weights to multiples
-/// of 2^-910 of its square. \param options  as for Diagram; `decisions` is ignored \throw Error as Diagram;
-/// invalid_argument if coordinates are below 1e-100 or above 1e100, or extend over more than 8e75
+/// of 2^-910 of its square.
+/// \param options  as for Diagram; `decisions` is ignored
+/// \throw Error as Diagram; invalid_argument if coordinates are below 1e-100 or above 1e100, or extend over
+/// more than 8e75
 POWERCELL_API Dual regular_triangulation(const Device& device, const SeedsView& seeds,
                                          const Options& options = {});
 

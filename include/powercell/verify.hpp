@@ -38,14 +38,15 @@ struct SavedDiagram {
 /// Checks the laws that need no reference: partition of the measure; statuses; walls equal from both sides
 /// and on their bisectors; each cell's measure and centroid from its pieces; random points of the domain in
 /// the cell of least power distance, found by trying all seeds; in a solid vertices of the cells in place of
-/// these points. Tolerances follow from the diagram's precision and size. \throw Error unsupported if seeds
-/// are selected; as Diagram
+/// these points. Tolerances follow from the diagram's precision and size.
+/// \throw Error unsupported if seeds are selected; as Diagram
 POWERCELL_API std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds,
                                            const VerifyOptions& options = {});
 
 /// The same laws from the arrays alone, nothing of which is trusted; vertices of the cells take the place of
-/// random points. \throw Error invalid_argument if the arrays do not fit together (which cell); unsupported
-/// for cells of a periodic domain, which have shifts
+/// random points.
+/// \throw Error invalid_argument if the arrays do not fit together (which cell); unsupported for cells of a
+/// periodic domain, which have shifts
 POWERCELL_API std::vector<LawCheck> verify(const SavedDiagram& diagram, const VerifyOptions& options = {});
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// Work on another thread while the caller goes on. Internal.
+/// Work on another thread while the caller goes on.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,15 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;  // tasks may know what has it
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Waits for the task before. \throw what that one threw
+  /// Waits for the task before.
+  /// \throw what that one threw
   template <class Task>
   void run(Task task) {
     finish();
     last_ = std::async(std::move(task));
   }
-  /// Waits for the last task. \throw what that one threw
+  /// Waits for the last task.
+  /// \throw what that one threw
   void finish() {
     if (last_.valid()) last_.get();
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Search for the boxes that meet a box. Internal.
+/// Search for the boxes that meet a box.
 #pragma once
 
 #include <algorithm>

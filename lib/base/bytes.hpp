@@ -1,5 +1,5 @@
 /// \file
-/// Arrays of numbers as bytes, for any transport. Internal.
+/// Arrays of numbers as bytes, for any transport.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,8 @@ Bytes packed(const std::vector<T>&... arrays) {
   return bytes;
 }
 
-/// Reads what packed() wrote of as many arrays of the same types. \throw Error internal
+/// Reads what packed() wrote of as many arrays of the same types.
+/// \throw Error internal
 template <class... T>
 void unpack(std::span<const std::byte> bytes, std::vector<T>&... arrays) {
   const auto take = [&bytes](void* to, std::uint64_t count, std::size_t size) {

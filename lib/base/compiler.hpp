@@ -1,6 +1,6 @@
 /// \file
 /// What GCC and clang have beyond the C++ standard: here, in vector_copies.hpp and in float_environment.cpp
-/// alone, so that a port to another compiler begins and ends there. Internal.
+/// alone, so that a port to another compiler begins and ends there.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Disjoint sets of numbers (union-find). Internal.
+/// Disjoint sets of numbers (union-find).
 #pragma once
 
 #include <algorithm>

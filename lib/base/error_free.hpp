@@ -1,6 +1,6 @@
 /// \file
 /// What rounding takes from products and sums, by additions and multiplications alone: std::fma rounds twice
-/// in some standard libraries (MinGW's). Without underflow and overflow. Internal.
+/// in some standard libraries (MinGW's). Without underflow and overflow.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,5 @@
 /// \file
-/// The floating-point environment that the library computes in, whatever the caller's. Internal.
+/// The floating-point environment that the library computes in, whatever the caller's.
 #pragma once
 
 #include <cfenv>

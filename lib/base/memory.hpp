@@ -1,5 +1,5 @@
 /// \file
-/// Large arrays in host memory. Internal.
+/// Large arrays in host memory.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,8 @@ class GrowingArray {
   }
   ~GrowingArray() { std::free(data_); }
 
-  /// Values beyond the old size are undefined. \throw std::bad_alloc
+  /// Values beyond the old size are undefined.
+  /// \throw std::bad_alloc
   /// \param factor  capacity over size if the array must be reallocated
   void resize(std::size_t size, double factor = 1.25) {
     if (size > capacity_) grow(static_cast<std::size_t>(static_cast<double>(size) * factor) + 1);

@@ -1,5 +1,5 @@
 /// \file
-/// Checks of the arrays that describe a mesh, for domains and for remeshing. Internal.
+/// Checks of the arrays that describe a mesh, for domains and for remeshing.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 namespace powercell {
 
 /// Checks the arrays of a mesh of triangles or tetrahedra.
-/// \param vertices nv x 3   \param elements rows of `corners` indices
+/// \param vertices nv x 3
+/// \param elements rows of `corners` indices
 /// \param element, elements_name e.g. "triangle", "triangles", for messages
 /// \throw Error invalid_domain: wrong sizes, a coordinate that is not finite, an index out of range (the
 /// first)

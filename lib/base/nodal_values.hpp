@@ -1,5 +1,5 @@
 /// \file
-/// Functions given by values at the vertices of a mesh, affine in each triangle or tetrahedron. Internal.
+/// Functions given by values at the vertices of a mesh, affine in each triangle or tetrahedron.
 #pragma once
 
 #include <algorithm>

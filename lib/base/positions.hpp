@@ -1,5 +1,5 @@
 /// \file
-/// Points at the same position. Internal.
+/// Points by their coordinates: copies, and points at the same position.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 /// \file
-/// Carries messages between shards, some of which are here. Internal.
+/// Carries messages between shards, some of which are here, and compares what they were given.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,8 @@ class Post {
   virtual int first() const = 0;         ///< the number of the first shard that is here; the others follow it
   virtual const char* noun() const = 0;  ///< what messages call a shard
 
-  /// \param letters  of each shard here, to any \return to each shard here
+  /// \param letters  of each shard here, to any
+  /// \return to each shard here
   virtual std::vector<Letters> deliver(std::vector<Letters> letters) = 0;
   /// The same where one shard is here.
   Letters deliver_one(Letters letters) {
@@ -35,10 +36,12 @@ class Post {
     own[0] = std::move(letters);
     return std::move(deliver(std::move(own))[0]);
   }
-  /// \param own  of each shard here \return of all shards
+  /// \param own  of each shard here
+  /// \return of all shards
   virtual std::vector<Bytes> share(std::vector<Bytes> own) = 0;
 
-  /// The sums over all shards of `count` numbers. \param own  of each shard here, as many of each
+  /// The sums over all shards of `count` numbers.
+  /// \param own  of each shard here, as many of each
   std::vector<std::uint64_t> sums(const std::vector<std::vector<std::uint64_t>>& own) {
     std::vector<Bytes> bytes;
     for (const std::vector<std::uint64_t>& values : own) bytes.push_back(packed(values));

@@ -1,5 +1,5 @@
 /// \file
-/// Stable sort of keyed indices. Internal.
+/// Stable sort of keyed indices.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Random numbers that are the same on every machine. Internal.
+/// Random numbers that are the same on every machine.
 #pragma once
 
 #include <algorithm>

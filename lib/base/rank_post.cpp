@@ -13,7 +13,8 @@ Bytes packed_fault(ErrorCode code, const std::string& what) {
                 std::vector<char>(what.begin(), what.end()));
 }
 
-/// Takes the last byte off each message. \return by rank: whether it has failed; fewer if messages are lost
+/// Takes the last byte off each message.
+/// \return by rank: whether it has failed; fewer if messages are lost
 std::vector<bool> take_marks(std::vector<Bytes>& received) {
   std::vector<bool> failed;
   for (Bytes& message : received) {
@@ -24,7 +25,8 @@ std::vector<bool> take_marks(std::vector<Bytes>& received) {
   return failed;
 }
 
-/// The error of the first rank that has failed. \pre there is one
+/// The error of the first rank that has failed.
+/// \pre there is one
 Error first_error(const std::vector<Bytes>& messages, const std::vector<bool>& failed) {
   const auto first = static_cast<std::size_t>(std::find(failed.begin(), failed.end(), true) - failed.begin());
   std::vector<std::int32_t> code;

@@ -1,5 +1,5 @@
 /// \file
-/// Messages between ranks, with what happens when one of them fails. Internal.
+/// Messages between ranks, with what happens when one of them fails.
 #pragma once
 
 #include <exception>
@@ -58,13 +58,15 @@ class RankPost : public Post {
     is_over_ = false;
     return result;
   }
-  /// Returns when all ranks have come here. \throw Error of a rank that has failed before
+  /// Returns when all ranks have come here.
+  /// \throw Error of a rank that has failed before
   void meet() { exchange(std::vector<Bytes>(static_cast<std::size_t>(shards()))); }
 
  private:
   /// \throw Error of a rank that has failed
   std::vector<Bytes> exchange(std::vector<Bytes> messages);
-  /// Tells all ranks that this one has failed. \return the error of all
+  /// Tells all ranks that this one has failed.
+  /// \return the error of all
   Error failed_together(ErrorCode code, const std::string& what);
 
   Communicator& communicator_;

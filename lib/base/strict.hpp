@@ -1,7 +1,6 @@
 /// \file
 /// Refuses compilers and flags under which exact decisions would be wrong. The build includes it first in
 /// every source of the libraries (cmake/strict.cmake), whose options undo what a parent project asks for.
-/// Internal.
 #pragma once
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) ||             \

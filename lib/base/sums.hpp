@@ -1,5 +1,5 @@
 /// \file
-/// Sums of many terms. Internal.
+/// Sums of many terms.
 #pragma once
 
 #include <cmath>

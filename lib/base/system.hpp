@@ -1,7 +1,7 @@
 /// \file
 /// Files, and what else POSIX and Windows do in different ways: system_posix.cpp and system_windows.cpp.
 /// Paths are std::filesystem::path, which takes text as UTF-8 on Windows with GCC's library. A function with
-/// `error` clears it, or says there what went wrong. Internal.
+/// `error` clears it, or says there what went wrong.
 #pragma once
 
 #include <cstddef>

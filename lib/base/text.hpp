@@ -1,5 +1,5 @@
 /// \file
-/// Numbers and callers' text for messages, the same in every locale. Internal.
+/// Numbers and callers' text for messages, the same in every locale.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@ std::string digits(double value);
 /// `value` with at most `significant` digits, like printf's %g: for measured values.
 std::string digits(double value, int significant);
 
-/// "(x, y, z)", for places in messages. \param point  3 coordinates
+/// "(x, y, z)", for places in messages.
+/// \param point  3 coordinates
 std::string place_text(const double* point);
 
 /// `text` cut off after `most` bytes, with control characters replaced, so that a message stays on one line

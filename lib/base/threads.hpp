@@ -1,5 +1,5 @@
 /// \file
-/// Work shared between host threads. Internal.
+/// Work shared between host threads.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 /// \file
 /// Numbers as unevaluated sums of two doubles, good to about 104 bits: without fused operations, which not
 /// all machines have. Without overflow; results below 10^-290 have an absolute error of some 10^-306.
-/// Internal.
 #pragma once
 
 #include "lib/base/error_free.hpp"

@@ -1,5 +1,5 @@
 /// \file
-/// POWERCELL_VECTOR_COPIES: compiles a function for several widths of vector registers. Internal.
+/// POWERCELL_VECTOR_COPIES: compiles a function for several widths of vector registers.
 #pragma once
 
 // The loader picks the copy for the machine. Contraction is off, so all copies give the same bits. Not under

@@ -1,5 +1,5 @@
 /// \file
-/// Points and directions in space as arrays of three numbers. Internal.
+/// Points and directions in space as arrays of three numbers.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Wall time without compilation. Internal.
+/// Wall time without compilation.
 #pragma once
 
 #include <chrono>

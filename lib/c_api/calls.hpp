@@ -47,7 +47,8 @@ inline void require(bool condition, const char* message) {
   if (!condition) throw Error(ErrorCode::invalid_argument, message);
 }
 
-/// What `pointer` points to. \throw Error invalid_argument "NAME is NULL"
+/// What `pointer` points to.
+/// \throw Error invalid_argument "NAME is NULL"
 template <class T>
 T& checked(T* pointer, const char* name) {
   if (!pointer) throw Error(ErrorCode::invalid_argument, std::string(name) + " is NULL");

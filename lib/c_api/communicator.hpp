@@ -21,7 +21,8 @@ namespace powercell::c_api {
 /// A communicator of the caller.
 class CallerCommunicator : public Communicator {
  public:
-  /// Copies it. \throw Error invalid_argument (NULL, its size as a struct, without a function)
+  /// Copies it.
+  /// \throw Error invalid_argument (NULL, its size as a struct, without a function)
   explicit CallerCommunicator(const pc_communicator* given);
   int rank() const override { return given_.rank; }
   int size() const override { return given_.size; }

@@ -1,6 +1,6 @@
 /// \file
 /// How exactly a device divides and takes roots, measured from the results of the kernels `arithmetic_...` of
-/// kernels/base/self_test.cl. Internal.
+/// kernels/base/self_test.cl.
 #pragma once
 
 #include <cstdint>
@@ -39,12 +39,14 @@ template <class T>
 Accuracy measure_accuracy(std::span<const T> operands, std::span<const T> results);
 
 /// Says what exceeds the proofs, and whether that looks like an emulation of double precision; empty if
-/// nothing does. \param is_double  precision of the results
+/// nothing does.
+/// \param is_double  precision of the results
 std::string accuracy_fault(const Accuracy& accuracy, bool is_double);
 /// A line for the log.
 std::string describe(const Accuracy& accuracy, bool is_double);
 
-/// Computes known results on the host. \return what is wrong, and for which numbers; empty if all are right
+/// Computes known results on the host.
+/// \return what is wrong, and for which numbers; empty if all are right
 std::string host_arithmetic_fault();
 
 }  // namespace powercell::cl

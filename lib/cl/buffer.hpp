@@ -1,5 +1,5 @@
 /// \file
-/// Device memory of one element type, and kernel calls. Internal.
+/// Device memory of one element type, and kernel calls.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,8 @@ class RawBuffer {
   RawBuffer& operator=(RawBuffer&& other) noexcept;
   ~RawBuffer();
 
-  /// At least `bytes` (one element is allocated for 0). \throw Error out_of_device_memory
+  /// At least `bytes` (one element is allocated for 0).
+  /// \throw Error out_of_device_memory
   void reserve(std::size_t bytes);
   /// The bytes may be changed afterwards: few are copied and the write is only enqueued, of many it waits.
   void write(const void* from, std::size_t bytes, std::size_t offset = 0);
@@ -54,7 +55,8 @@ class Mapping {
   ~Mapping();
 
   const std::byte* data() const { return data_; }
-  /// Unmaps the buffer; data() is invalid afterwards. \throw Error opencl
+  /// Unmaps the buffer; data() is invalid afterwards.
+  /// \throw Error opencl
   void end();
 
  private:

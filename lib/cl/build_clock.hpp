@@ -1,5 +1,5 @@
 /// \file
-/// The time that compilers of kernels take. Internal.
+/// The time that compilers of kernels take.
 #pragma once
 
 #include <chrono>

@@ -110,8 +110,8 @@ Device open(const FoundDevice& found) {
   return open(SharedContext::make(found.platform, found.device), found.info);
 }
 
-/// Opens `most` devices, the first of `order` that can be opened. \throw Error of the first that cannot, if
-/// none can
+/// Opens `most` devices, the first of `order` that can be opened.
+/// \throw Error of the first that cannot, if none can
 std::vector<Device> open_those_that_work(const FoundDevices& found, std::span<const std::size_t> order,
                                          std::size_t most) {
   std::vector<Device> opened;

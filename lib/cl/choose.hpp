@@ -1,5 +1,5 @@
 /// \file
-/// Finds the device that a selector names. Internal.
+/// Finds the device that a selector names.
 #pragma once
 
 #include <powercell/device.hpp>
@@ -12,8 +12,9 @@ namespace powercell::cl {
 /// Index into `devices` of the one that `selector` names ("P:D", "cpu", "gpu", or a case-insensitive
 /// part of the device's or platform's name); of several the best. Empty: the best of all.
 /// Best: a GPU before a CPU before others, a GPU with memory of its own before one without, then most lanes
-/// times clock, then first. \param origin  where the selector was given, for the message: "" or e.g. " (from
-/// POWERCELL_DEVICE)" \throw Error device_not_found listing `devices`
+/// times clock, then first.
+/// \param origin  where the selector was given, for the message: "" or e.g. " (from POWERCELL_DEVICE)"
+/// \throw Error device_not_found listing `devices`
 std::size_t select_device(std::span<const DeviceInfo> devices, std::string_view selector,
                           std::string_view origin = {});
 
@@ -22,7 +23,8 @@ std::size_t select_device(std::span<const DeviceInfo> devices, std::string_view 
 std::vector<std::size_t> select_devices(std::span<const DeviceInfo> devices, std::string_view selectors,
                                         std::string_view origin = {});
 
-/// For what is that of one device. \throw Error unsupported if `device` is a group; names `what`
+/// For what is that of one device.
+/// \throw Error unsupported if `device` is a group; names `what`
 void require_single(const Device& device, std::string_view what);
 
 }  // namespace powercell::cl

@@ -1,5 +1,5 @@
 /// \file
-/// An OpenCL context with its in-order queue and its compiled programs. Internal.
+/// An OpenCL context with its in-order queue and its compiled programs.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +48,8 @@ class LaunchSize {
   std::size_t items_;
 };
 
-/// Throws unless `status` is CL_SUCCESS. \param what  the operation, for the message
+/// Throws unless `status` is CL_SUCCESS.
+/// \param what  the operation, for the message
 /// \throw Error out_of_device_memory for allocation failures; unsupported in a forked process and where the
 /// loader lacks the function; else opencl, naming the code and `what`
 void check(cl_int status, std::string_view what);
@@ -65,7 +66,8 @@ struct Event {
   ~Event() { clReleaseEvent(handle); }
   /// CL_COMPLETE, a status above it while the command is not done, or one below it if it failed.
   cl_int state() const;
-  /// Waits for the command. \return CL_SUCCESS, or why it or the wait failed
+  /// Waits for the command.
+  /// \return CL_SUCCESS, or why it or the wait failed
   cl_int wait() const;
   /// Whether the command may still use host memory, after wait() failed for another reason.
   bool is_pending() const;
@@ -75,7 +77,8 @@ struct Event {
 
 class Context {
  public:
-  /// With a queue of its own. \throw Error opencl
+  /// With a queue of its own.
+  /// \throw Error opencl
   Context(std::shared_ptr<SharedContext> shared, DeviceInfo info);
   explicit Context(cl_command_queue queue);  // retains
   Context(const Context&) = delete;
@@ -105,12 +108,13 @@ class Context {
   /// \throw Error build_failed with device, options and log
   std::shared_ptr<const Program> program(std::string_view file, const std::vector<std::string>& defines);
 
-  /// Blocks until the queue is empty. \throw Error opencl, also if a write noted before has failed
+  /// Blocks until the queue is empty.
+  /// \throw Error opencl, also if a write noted before has failed
   void finish();
   /// A write that nobody waits for; its event.
   void note_write(std::weak_ptr<const Event> write);
-  /// To be called after waiting for later commands: forgets the writes of this thread that are done. \throw
-  /// Error opencl if one has failed, since what was computed with it is wrong
+  /// To be called after waiting for later commands: forgets the writes of this thread that are done.
+  /// \throw Error opencl if one has failed, since what was computed with it is wrong
   void check_writes();
 
  private:

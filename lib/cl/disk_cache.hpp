@@ -1,5 +1,5 @@
 /// \file
-/// Compiled programs kept between runs, a file each. Internal.
+/// Compiled programs kept between runs, a file each.
 ///
 /// No function throws because of the disk: a cache that cannot be read or written acts as an empty one.
 #pragma once

@@ -39,7 +39,8 @@ T device_value(cl_device_id device, cl_device_info which) {
   return value;
 }
 
-/// The environment variable if it is set. \throw Error invalid_argument if it is anything but `word`
+/// The environment variable if it is set.
+/// \throw Error invalid_argument if it is anything but `word`
 bool environment_says(const char* name, std::string_view word) {
   const char* set = std::getenv(name);
   const std::string_view value = set ? set : "";
@@ -91,7 +92,8 @@ std::vector<cl_device_id> devices_of(cl_platform_id platform) {
   return devices;
 }
 
-/// Runs `query`. \return what it says where OpenCL cannot answer; empty where it can
+/// Runs `query`.
+/// \return what it says where OpenCL cannot answer; empty where it can
 template <class Query>
 std::string fault_of(const Query& query) {
   try {

@@ -1,5 +1,5 @@
 /// \file
-/// OpenCL status codes as exceptions, beyond `check` of context.hpp. Internal.
+/// OpenCL status codes as exceptions, beyond `check` of context.hpp.
 #pragma once
 
 #include <string_view>
@@ -13,7 +13,8 @@ namespace powercell::cl {
 void check_allocation(cl_int status, std::string_view what);
 
 /// As `check`, after a query for which nothing is allocated on the device: drivers without their kernel
-/// module answer CL_OUT_OF_HOST_MEMORY. \throw Error opencl
+/// module answer CL_OUT_OF_HOST_MEMORY.
+/// \throw Error opencl
 void check_query(cl_int status, std::string_view what);
 
 /// Whether a failure is one of a device, so that another one may do.

@@ -1,7 +1,7 @@
 /// \file
 /// The functions of OpenCL that the library calls. Each is looked up at its first call, so that programs
 /// start on machines without an OpenCL loader, and nothing links one. Here and in all of powercell::cl a name
-/// such as clFinish is the object below, which hides the function that <CL/cl.h> declares. Internal.
+/// such as clFinish is the object below, which hides the function that <CL/cl.h> declares.
 #pragma once
 
 #ifndef CL_TARGET_OPENCL_VERSION

@@ -1,5 +1,5 @@
 /// \file
-/// A compiled program and its kernels. Internal.
+/// A compiled program and its kernels.
 #pragma once
 
 #include <atomic>
@@ -67,7 +67,8 @@ class Kernel {
   /// nothing to do with their groups. Waits for the parts there.
   void launch_in_parts(std::size_t global);
   /// As launch() without waiting. On a caller's queue, which the caller may hold back, it does not wait where
-  /// the driver compiles at the first launch either. \param done  the caller's to release, if not null
+  /// the driver compiles at the first launch either.
+  /// \param done  the caller's to release, if not null
   void submit(std::size_t global, std::size_t local = 0, cl_event* done = nullptr);
 
  private:

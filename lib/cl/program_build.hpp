@@ -1,5 +1,5 @@
 /// \file
-/// Programs from source or from the disk cache. Internal.
+/// Programs from source or from the disk cache.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,8 @@ struct ProgramRequest {
 };
 
 /// "-cl-std=CL1.2", no warnings, and a -D for each of `defines`. Never fast-math: sides are decided in
-/// kernels. \throw Error internal for a define with a blank, which no driver could tell from the next option
+/// kernels.
+/// \throw Error internal for a define with a blank, which no driver could tell from the next option
 std::string build_options(const std::vector<std::string>& defines);
 
 /// Names the program on this device with this driver and this version of the library.
@@ -33,7 +34,8 @@ CacheKey cache_key(const Context& context, const ProgramRequest& request);
 bool uses_disk_cache(const Context& context);
 
 /// From `cache`, or compiled and then put there. An entry the driver refuses is deleted and replaced.
-/// \param cache   may be null  \param origin  may be null
+/// \param cache  may be null
+/// \param origin  may be null
 /// \throw Error build_failed with device, options and log
 std::shared_ptr<const Program> build_program(const Context& context, const ProgramRequest& request,
                                              const DiskCache* cache, ProgramOrigin* origin);

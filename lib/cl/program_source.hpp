@@ -1,5 +1,5 @@
 /// \file
-/// The source text of kernels, with includes expanded. Internal.
+/// The source text of kernels, with includes expanded.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// \file
-/// Needs of drivers beyond the OpenCL specification, in one table (quirks.cpp). Internal.
+/// Needs of drivers beyond the OpenCL specification, in one table (quirks.cpp).
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,8 @@ Quirks quirks_of(const DeviceInfo& device);
 std::unique_lock<std::recursive_mutex> call_alone(const DeviceInfo& device);
 
 /// That of the settings for cells of a dimension, unless the environment variable POWERCELL_LANES is 1, 4
-/// or 8. \throw Error invalid_argument if it is anything else
+/// or 8.
+/// \throw Error invalid_argument if it is anything else
 int lane_width(const DeviceSettings& settings, int cell_dimension);
 
 }  // namespace powercell::cl

@@ -1,5 +1,5 @@
 /// \file
-/// Tests whether a device computes as OpenCL specifies. Internal.
+/// Tests whether a device computes as OpenCL specifies.
 #pragma once
 
 #include <cstdint>

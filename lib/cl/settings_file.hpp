@@ -1,5 +1,5 @@
 /// \file
-/// The file of settings measured on a device: its text, and which text is believed. Internal.
+/// The file of settings measured on a device: its text, and which text is believed.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 /// \file
 /// A context of OpenCL and the programs built in it for one device. All Contexts of the process on the same
-/// one share it, so that each program is built and tested once. Internal.
+/// one share it, so that each program is built and tested once.
 #pragma once
 
 #include <memory>
@@ -18,11 +18,13 @@ class Program;
 
 class SharedContext {
  public:
-  /// A new context, which of_device() finds from then on. \throw Error opencl
+  /// A new context, which of_device() finds from then on.
+  /// \throw Error opencl
   static std::shared_ptr<SharedContext> make(cl_platform_id platform, cl_device_id device);
   /// The latest one made for the device, if a Context has it still; else null.
   static std::shared_ptr<SharedContext> of_device(cl_device_id device);
-  /// That of a caller, retained. \throw Error opencl
+  /// That of a caller, retained.
+  /// \throw Error opencl
   static std::shared_ptr<SharedContext> of_caller(cl_context context, cl_device_id device);
 
   SharedContext(cl_context context, cl_device_id device) : context_(context), device_(device) {}  // owns

@@ -1,5 +1,5 @@
 /// \file
-/// Transfers between host and device that do not wait one by one. Internal.
+/// Transfers between host and device that do not wait one by one.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,8 @@ class StagedWrite {
   StagedWrite& operator=(StagedWrite&& other) noexcept;
   ~StagedWrite();
 
-  /// Memory for `bytes` bytes to be written. \throw Error opencl if the write before failed
+  /// Memory for `bytes` bytes to be written.
+  /// \throw Error opencl if the write before failed
   std::byte* stage(std::size_t bytes);
   /// Enqueues the write of the staged bytes, without waiting.
   void enqueue(Context& context, cl_mem memory, std::size_t offset);
@@ -45,7 +46,8 @@ class Reads {
   Reads& operator=(const Reads&) = delete;
   ~Reads();  ///< waits, so that nothing is written to host memory afterwards
 
-  /// \param to  must stay until wait() or the end of this object. \throw Error opencl
+  /// \param to  must stay until wait() or the end of this object.
+  /// \throw Error opencl
   void add(const RawBuffer& from, void* to, std::size_t bytes);
   void add(cl_mem from, void* to, std::size_t bytes);
   /// \throw Error opencl

@@ -1,7 +1,6 @@
 /// \file
 /// Clips chunks of (region, seed) pairs: on the device in rounds of candidates, with larger capacities for
 /// pieces that do not fit, and on the host for pieces that rounding may have decided or that fit no capacity.
-/// Internal.
 #pragma once
 
 #include <map>
@@ -69,8 +68,8 @@ class Clipper {
   /// \throw Error opencl, out_of_device_memory, build_failed, self_test_failed, internal
   const PieceSet& clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
 
-  /// Compiles the first kernel, which is else done when it is first needed. \throw Error build_failed,
-  /// self_test_failed, opencl
+  /// Compiles the first kernel, which is else done when it is first needed.
+  /// \throw Error build_failed, self_test_failed, opencl
   void build() { kernel(0); }
 
   /// The first step of clip().

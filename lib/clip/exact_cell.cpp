@@ -159,8 +159,8 @@ bool ExactCell::is_facet_outside(std::uint32_t facet, std::int32_t other) const 
   return side(facet) >= 0 && side(facet + 1) >= 0;
 }
 
-/// Polygons have corners within an edge where other pieces of the domain have theirs. \return the vertex of
-/// the domain
+/// Polygons have corners within an edge where other pieces of the domain have theirs.
+/// \return the vertex of the domain
 std::uint32_t ExactCell::corner_in_line(const ExactVertex& vertex) const {
   const auto before = static_cast<std::uint32_t>(~vertex[0]), behind = static_cast<std::uint32_t>(~vertex[1]);
   const RegionMesh& mesh = *scene_->mesh;  // facet f goes from corner f to the next

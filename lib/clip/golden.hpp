@@ -1,6 +1,6 @@
 /// \file
 /// A tiny diagram with known measures, computed with each clip program before its first use, to detect
-/// drivers that miscompile it. Internal.
+/// drivers that miscompile it.
 #pragma once
 
 #include <powercell/domain.hpp>
@@ -19,7 +19,8 @@ SeedSet golden_seeds(int dimension);
 /// The measure of the cell of seed `s`.
 double golden_measure(const Variant& variant, std::uint32_t s);
 
-/// The same domain as two triangles of a surface, or six tetrahedra. \pre variant.dimension is 3
+/// The same domain as two triangles of a surface, or six tetrahedra.
+/// \pre variant.dimension is 3
 Domain golden_simplices(const Variant& variant);
 /// A density at the vertices of those: 1 + x + 2 y + 3 z.
 std::vector<double> golden_densities(const Domain& simplices);

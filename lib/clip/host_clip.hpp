@@ -50,8 +50,8 @@ class HostClipper {
  public:
   virtual ~HostClipper() = default;
   /// Clips the piece of seed `rank` in `region` by all other seeds: returns its status (PIECE_DONE, _EMPTY
-  /// or _FLAT), writes its 2 + dimension moments and appends its row. \throw Error internal if the result
-  /// contradicts itself: a defect (names the seed by its rank)
+  /// or _FLAT), writes its 2 + dimension moments and appends its row.
+  /// \throw Error internal if the result contradicts itself: a defect (names the seed by its rank)
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;
   /// At least the distance of the farthest vertex of the last piece from its seed, if it is not empty.
   virtual double radius() const = 0;

@@ -19,7 +19,8 @@ class HostPolygon {
   /// Edge k has the border ~k.
   void start(const HostRegion& region);
   /// Cuts off the vertices `outside`, in ascending order and not all there are, by a line.
-  /// Takes time by their number alone. \return whether they are connected
+  /// Takes time by their number alone.
+  /// \return whether they are connected
   bool cut(std::span<const std::uint32_t> outside, const HostFace& line, const HostPlacer& place);
   /// The vertices that the last cut made, or gave another number.
   const std::vector<std::uint32_t>& changed() const { return changed_; }
@@ -53,7 +54,8 @@ class HostPolygon {
   bool is_on(std::size_t v, std::size_t f) const { return v == f || v == after(f); }
   std::size_t after(std::size_t v) const { return ring_[v].next; }
   std::size_t before(std::size_t v) const { return ring_[v].previous; }
-  /// Calls use(v, u, border) for the edges from v to u until it returns false. \return whether it never did
+  /// Calls use(v, u, border) for the edges from v to u until it returns false.
+  /// \return whether it never did
   template <class Use>
   bool all_edges(std::size_t, const Use& use) const {
     for (std::size_t v = 0; v < size(); ++v)

@@ -46,7 +46,8 @@ void HostPolyhedron::find_crossings(std::span<const std::uint32_t> outside) {
   for (const std::uint32_t v : outside) is_outside_[v] = 0;
 }
 
-/// Joins the new vertices, starting from `first`, around the new face. \return whether they form one loop
+/// Joins the new vertices, starting from `first`, around the new face.
+/// \return whether they form one loop
 bool HostPolyhedron::link_loop(std::uint32_t first) {
   std::size_t length = 0;
   std::uint32_t u = first;

@@ -22,8 +22,8 @@ class HostPolyhedron {
 
   /// The region's shape; facet f has the border ~f.
   void start(const HostRegion& region);
-  /// Cuts off the vertices `outside`, in ascending order and not all there are, by a plane. \return whether
-  /// they are connected
+  /// Cuts off the vertices `outside`, in ascending order and not all there are, by a plane.
+  /// \return whether they are connected
   bool cut(std::span<const std::uint32_t> outside, const HostFace& face, const HostPlacer& place);
   /// The vertices that the last cut made, or gave another number.
   const std::vector<std::uint32_t>& changed() const { return changed_; }
@@ -65,7 +65,8 @@ class HostPolyhedron {
     return links_[v].face[0] == f || links_[v].face[1] == f || links_[v].face[2] == f;
   }
   /// Calls use(v, u, border) for the edges of face f from v to u, each in the plane of `border`, until it
-  /// returns false. \return whether it never did
+  /// returns false.
+  /// \return whether it never did
   template <class Use>
   bool all_edges(std::size_t f, const Use& use) const {
     std::size_t v = mark_[f];

@@ -1,5 +1,5 @@
 /// \file
-/// Work in chunks that shrink when device memory runs out. Internal.
+/// Work in chunks that shrink when device memory runs out.
 #pragma once
 
 #include <algorithm>

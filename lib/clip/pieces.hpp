@@ -1,5 +1,5 @@
 /// \file
-/// Clipped pieces, read back from a launch or made on the host. Internal.
+/// Clipped pieces, read back from a launch or made on the host.
 #pragma once
 
 #include <cstdint>

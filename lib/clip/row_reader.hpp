@@ -1,5 +1,5 @@
 /// \file
-/// Reads only the used entries of fixed-capacity rows from the device. Internal.
+/// Reads only the used entries of fixed-capacity rows from the device.
 #pragma once
 
 #include <array>

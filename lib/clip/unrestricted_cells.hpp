@@ -1,5 +1,5 @@
 /// \file
-/// Cells clipped in the container around the domain instead of in its regions. Internal.
+/// Cells clipped in the container around the domain instead of in its regions.
 #pragma once
 
 #include <functional>

@@ -106,8 +106,8 @@ Real VertexSearch<Real>::bound_by_place(const HostNode& node, const Known& known
   return known.least + excess - square_ - (across + across) - step2 - number_of<Real>(margin);
 }
 
-/// Visits the seeds below a node that may take the vertex. \return a lower bound of their differences of
-/// power distances
+/// Visits the seeds below a node that may take the vertex.
+/// \return a lower bound of their differences of power distances
 template <class Real>
 Real VertexSearch<Real>::search(std::uint32_t at, std::size_t level) {
   const std::size_t node = number(at, level);

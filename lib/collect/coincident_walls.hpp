@@ -1,5 +1,5 @@
 /// \file
-/// Walls that lie in the boundary of a solid because seeds tie with it. Internal.
+/// Walls that lie in the boundary of a solid because seeds tie with it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,9 @@ struct CoincidentWall {
 };
 
 /// Makes such parts boundary of the cells behind. Cells in front lose them, with the triangle on their other
-/// side. \param walls  in any order   \param positions  of the seeds, 3 each
+/// side.
+/// \param walls  in any order
+/// \param positions  of the seeds, 3 each
 JoinedCells without_coincident_walls(const JoinedCells& cells, std::vector<CoincidentWall> walls,
                                      std::span<const double> positions);
 

@@ -17,7 +17,8 @@ namespace {
 template <std::size_t C>
 using Row = std::array<std::uint32_t, C>;
 
-/// The seeds of a row in ascending order. \pre a row starts with its smallest seed
+/// The seeds of a row in ascending order.
+/// \pre a row starts with its smallest seed
 Row<3> key(const Row<3>& row) {
   return row[1] < row[2] ? row : Row<3>{row[0], row[2], row[1]};
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Collects how much of the domain's boundary each cell has. Internal.
+/// Collects how much of the domain's boundary each cell has.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,14 @@ class FacetCollector {
   /// Keeps the reference.
   explicit FacetCollector(const RegionMesh& mesh) : mesh_(mesh) {}
 
-  /// Adds the pieces of a chunk, with all faces (OUTPUT_FACETS). \param pair_row  in ascending order
+  /// Adds the pieces of a chunk, with all faces (OUTPUT_FACETS).
+  /// \param pair_row  in ascending order
   void add(std::span<const std::uint32_t> pair_row, std::span<const std::uint32_t> pair_region,
            const PieceSet& pieces);
 
   /// The facets of the cells whose status is ok, measures times `unit`. To be called once.
-  /// \param place  of each row in the results  \param status  by place
+  /// \param place  of each row in the results
+  /// \param status  by place
   BoundaryWalls finish(std::span<const std::uint32_t> place, const std::vector<SeedStatus>& status,
                        double unit);
 

@@ -1,5 +1,5 @@
 /// \file
-/// Collects the geometry of clipped pieces into Cells. Internal.
+/// Collects the geometry of clipped pieces into Cells.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class GeometryCollector {
   void add(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
            const PieceSet& pieces);
 
-  /// Removes the pieces of some ranks, so that others can be added. \param ranks  ascending
+  /// Removes the pieces of some ranks, so that others can be added.
+  /// \param ranks  ascending
   void discard(std::span<const std::uint32_t> ranks);
 
   /// The cells in input order, of the seeds whose status is ok.

@@ -1,5 +1,5 @@
 /// \file
-/// The faces of one joined cell, made from its welded pieces. Internal.
+/// The faces of one joined cell, made from its welded pieces.
 #pragma once
 
 #include <cstdint>

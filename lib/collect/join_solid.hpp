@@ -1,5 +1,5 @@
 /// \file
-/// The geometry of the cells in a solid. Internal.
+/// The geometry of the cells in a solid.
 #pragma once
 
 #include <cstdint>

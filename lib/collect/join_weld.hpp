@@ -1,6 +1,6 @@
 /// \file
 /// Finds which vertices of the pieces of one cell are the same point, and which facets between pieces
-/// disappear when they are joined. Internal.
+/// disappear when they are joined.
 #pragma once
 
 #include <array>

@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t least_shared_rows = 1024;  // with fewer rows, threads cost more than they save
 
-/// Replaces ranks by input indices, and drops walls of measure 0. \return how many are left
+/// Replaces ranks by input indices, and drops walls of measure 0.
+/// \return how many are left
 std::size_t settle(const WallRow& row, const SeedSet& seeds, double unit) {
   std::uint32_t* const neighbor = row.neighbors();
   double* const measure = row.measures();

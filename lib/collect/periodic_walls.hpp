@@ -1,5 +1,5 @@
 /// \file
-/// Collects the walls of the cells of a periodic domain into the symmetric adjacency. Internal.
+/// Collects the walls of the cells of a periodic domain into the symmetric adjacency.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Collects the walls of the cells of some seeds in a periodic domain, as seen from these cells. Internal.
+/// Collects the walls of the cells of some seeds in a periodic domain, as seen from these cells.
 #pragma once
 
 #include <array>
@@ -15,13 +15,15 @@ namespace powercell {
 
 class SelectedWalls {
  public:
-  /// Keeps the references. \param rows  selected
+  /// Keeps the references.
+  /// \param rows  selected
   SelectedWalls(const Placement& placement, std::size_t rows, int threads)
       : placement_(placement), threads_(threads), row_(rows) {
     walls_.reserve(rows * usual_walls[placement.images.seeds.dimension == 2 ? 0 : 1]);
   }
 
-  /// Adds the pieces of a chunk. Rows ascend over all chunks. \param pair_row  of each pair
+  /// Adds the pieces of a chunk. Rows ascend over all chunks.
+  /// \param pair_row  of each pair
   void add(std::span<const std::uint32_t> pair_row, std::span<const std::uint32_t> pair_seed,
            const PieceSet& pieces);
 

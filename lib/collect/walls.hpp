@@ -1,5 +1,5 @@
 /// \file
-/// Collects the walls of clipped pieces into the symmetric adjacency. Internal.
+/// Collects the walls of clipped pieces into the symmetric adjacency.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,8 @@ class WallRows {
   /// of entries are scattered in memory.
   /// \param rank    of each entry, or no_rank
   /// \param offset  of the walls of each entry among those of all, as in Adjacency, or nearly
-  /// \param i       the entry at work \param last  the end of the entries
+  /// \param i  the entry at work
+  /// \param last  the end of the entries
   void fetch_ahead(std::span<const std::uint32_t> rank, std::span<const std::uint64_t> offset, std::size_t i,
                    std::size_t last);
   /// Adds an uninitialised row of `count` walls to the memory of one thread. It replaces an earlier row of
@@ -73,7 +74,8 @@ class WallCollector {
   /// Adds the pieces of a chunk. Ranks ascend over all chunks; a rank may continue in the next chunk.
   void add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
 
-  /// Replaces the walls of a rank, after all chunks. \param neighbors  distinct
+  /// Replaces the walls of a rank, after all chunks.
+  /// \param neighbors  distinct
   /// \param thread  the number of the calling thread: several may set rows at a time
   void set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors, std::span<const double> measures,
                std::size_t thread = 0);

@@ -1,5 +1,5 @@
 /// \file
-/// The known results of kernels/device_rates/device_rates.cl. Internal.
+/// The known results of kernels/device_rates/device_rates.cl.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Timings repeated until the least of them can be trusted. Internal.
+/// Timings repeated until the least of them can be trusted.
 #pragma once
 
 #include <algorithm>

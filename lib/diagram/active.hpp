@@ -1,5 +1,5 @@
 /// \file
-/// The seeds that may have cells, on the host and on the device. Internal.
+/// The seeds that may have cells, on the host and on the device.
 #pragma once
 
 #include <optional>
@@ -36,7 +36,8 @@ class Active {
   const SeedSet& seeds() const { return images_ ? images_->seeds : own_ ? *own_ : input_.seeds; }
   /// Null unless the domain is periodic.
   const Images* images() const { return images_ ? &*images_ : nullptr; }
-  /// From wrapped seeds to those given. \pre images()
+  /// From wrapped seeds to those given.
+  /// \pre images()
   Placement placement() const { return {*setup_.period(), *images_, input_.unwrapped->shift}; }
   const PackedTree& tree() const { return tree_; }
   Scene scene() const { return scene_on(setup_.on_device, buffers_); }
@@ -55,7 +56,8 @@ class Active {
   /// cells on both sides of a flat cell then share its walls.
   void exclude_flat_cells(std::span<const std::uint32_t> ranks);
 
-  /// Appends images within a wider margin; ranks stay, and candidates must be made anew. \pre images()
+  /// Appends images within a wider margin; ranks stay, and candidates must be made anew.
+  /// \pre images()
   /// \param clearance  as for powercell::widen
   /// \return whether there are any
   bool widen(double margin, std::span<const double> clearance);

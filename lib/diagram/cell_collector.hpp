@@ -1,5 +1,5 @@
 /// \file
-/// Collects what the chunks of a pass come to into results. Internal.
+/// Collects what the chunks of a pass come to into results.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,17 @@ namespace powercell {
 
 class CellCollector {
  public:
-  /// Keeps the references. \param workspace  its memory of walls is taken, and given back by finish()
+  /// Keeps the references.
+  /// \param workspace  its memory of walls is taken, and given back by finish()
   CellCollector(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace);
 
   /// What the kernels are to write.
   int outputs() const;
-  /// Adds the next chunk, which the host has completed. \throw Error out_of_device_memory, before anything is
-  /// added; opencl
+  /// Adds the next chunk, which the host has completed.
+  /// \throw Error out_of_device_memory, before anything is added; opencl
   void add(ClipChunk& chunk, const PieceSet& pieces);
-  /// Adds a chunk of cells that were taken by take_beyond(). \throw Error as add
+  /// Adds a chunk of cells that were taken by take_beyond().
+  /// \throw Error as add
   void replace(ClipChunk& chunk, const PieceSet& pieces);
 
   /// In a periodic domain: whether cells reach beyond the margin in which there are images.
@@ -37,7 +39,8 @@ class CellCollector {
   std::span<const double> clearance() const { return clearance_; }
   /// Strikes off those that are proved by a wider margin without further images.
   void prove_again();
-  /// Removes what was collected of these. \return their rows, ascending
+  /// Removes what was collected of these.
+  /// \return their rows, ascending
   std::vector<std::uint32_t> take_beyond();
 
   /// To be called once.

@@ -1,5 +1,6 @@
 /// \file
-/// Devices clip chunks, each in a thread of its own, while the caller completes them in order. Internal.
+/// Devices clip chunks, each in a thread of its own, while the caller completes them in order. Chunks are
+/// shared out by the speeds of the devices.
 #pragma once
 
 #include <condition_variable>
@@ -62,14 +63,16 @@ class ChunkPipeline {
     bool is_clipped;  ///< false where the device ran out of memory
   };
 
-  /// Devices, plan and sharing must outlive this. \param chunks  that a device has at a time: 1 or 2
+  /// Devices, plan and sharing must outlive this.
+  /// \param chunks  that a device has at a time: 1 or 2
   ChunkPipeline(std::deque<ClipDevice>& devices, const Plan& plan, Sharing& sharing, std::size_t chunks);
   ChunkPipeline(const ChunkPipeline&) = delete;
   ChunkPipeline& operator=(const ChunkPipeline&) = delete;
   /// Waits until the devices have ended what they do now.
   ~ChunkPipeline();
 
-  /// Starts the threads, as many as the system gives. \return false if there is none
+  /// Starts the threads, as many as the system gives.
+  /// \return false if there is none
   bool start();
   /// Waits for the chunk that begins with a pair, the one after that of the call before.
   /// \throw what a device's thread has thrown, whatever its chunk
@@ -98,7 +101,8 @@ class ChunkPipeline {
 
   /// The thread of a device.
   void run(std::size_t device) noexcept;
-  /// Takes a range into a free chunk; waits for one. \return null if there is nothing more to do
+  /// Takes a range into a free chunk; waits for one.
+  /// \return null if there is nothing more to do
   Slot* take(std::size_t device);
   static Slot* usable(Lane& lane);
   void clip(std::size_t device, Slot& slot);

@@ -59,12 +59,12 @@ class Pass {
   ClipWork work(std::uint64_t total, bool overlapping = false) const;
   /// Whether so many pairs are worth more than one device.
   bool is_shared(std::uint64_t total) const;
-  /// Clips and completes the pairs [begin, end) one chunk after the other. \return the size of a chunk at the
-  /// end
+  /// Clips and completes the pairs [begin, end) one chunk after the other.
+  /// \return the size of a chunk at the end
   std::uint64_t clip_in_turn(ClipDevice& device, ClipChunk& chunk, std::uint64_t begin, std::uint64_t end,
                              std::uint64_t size);
-  /// Has the devices clip all pairs while the host completes them. \return false if the system gives no
-  /// thread
+  /// Has the devices clip all pairs while the host completes them.
+  /// \return false if the system gives no thread
   bool clip_in_pipeline(std::deque<ClipDevice>& devices, Sharing sharing, std::size_t chunks);
   void keep_shares(const Sharing& sharing, const std::vector<std::uint64_t>& pairs);
   /// Completes a chunk on the host and collects it.

@@ -1,5 +1,5 @@
 /// \file
-/// One pass over all pairs of a plan, chunk by chunk: clip, integrate, collect. Internal.
+/// One pass over all pairs of a plan, chunk by chunk: clip, integrate, collect.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 /// \file
-/// One of the devices that clip the pairs of a pass. Internal.
+/// One of the devices that clip the pairs of a pass, and its chunks of them.
 #pragma once
 
 #include <array>
@@ -53,9 +53,11 @@ class ClipDevice {
              std::unique_ptr<Candidates>& copy);
 
   /// On a further device uploads the seeds, makes the candidates and compiles, where that was not done
-  /// before. \throw Error opencl, out_of_device_memory, build_failed, self_test_failed
+  /// before.
+  /// \throw Error opencl, out_of_device_memory, build_failed, self_test_failed
   void prepare();
-  /// Clips a chunk, one of chunks(), on the device. \throw as prepare(); internal
+  /// Clips a chunk, one of chunks(), on the device.
+  /// \throw as prepare(); internal
   void clip(ClipChunk& chunk);
   /// Frees the memory of a chunk that is not in use.
   void free_memory(ClipChunk& chunk);

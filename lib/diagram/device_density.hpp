@@ -1,5 +1,5 @@
 /// \file
-/// The density of a DeviceDiagram, from values at vertices to the measures of cells. Internal.
+/// The density of a DeviceDiagram, from values at vertices to the measures of cells.
 #pragma once
 
 #include <powercell/opencl.hpp>
@@ -21,15 +21,18 @@ class DeviceDensity {
   DeviceDensity& operator=(const DeviceDensity&) = delete;
   ~DeviceDensity() { set(nullptr); }
 
-  /// \param values  checked, of the context of the domain; null: none. \throw Error opencl
+  /// \param values  checked, of the context of the domain; null: none.
+  /// \throw Error opencl
   void set(cl_mem values);
   cl_mem values() const { return values_; }  ///< null: the density is 1
 
-  /// Reads the values, and makes room for moments of pieces. \pre there are values
+  /// Reads the values, and makes room for moments of pieces.
+  /// \pre there are values
   void begin(std::uint32_t pairs);
   /// Those of the clip kernel (kernels/diagram/clip_density.cl).
   void append_arguments(cl::Kernel& kernel) const;
-  /// Puts the integrals in place of the measures of cells. \param status  final, of each seed in input order
+  /// Puts the integrals in place of the measures of cells.
+  /// \param status  final, of each seed in input order
   void write(const DeviceSeeds& seeds, const DevicePairs& pairs, cl_mem status, cl_mem frame,
              cl_mem positions, std::uint32_t n, cl_mem measures, cl_event* done);
 

@@ -1,5 +1,5 @@
 /// \file
-/// The pipeline of a DeviceDiagram, from device memory to device memory. Internal.
+/// The pipeline of a DeviceDiagram, from device memory to device memory.
 #pragma once
 
 #include <optional>

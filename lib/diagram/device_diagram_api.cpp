@@ -52,7 +52,8 @@ struct Job {
   DeviceResults results;
 };
 
-/// The entries that the caller's rows have room for. \throw Error invalid_argument
+/// The entries that the caller's rows have room for.
+/// \throw Error invalid_argument
 std::uint32_t room_for_rows(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
   const cl::Context& context = *s.device.context();
   const std::size_t real = s.real_bytes();
@@ -70,7 +71,8 @@ std::uint32_t room_for_rows(const DeviceDiagram::State& s, std::uint32_t n, cons
   return in_32_bits(std::min(room, values_in(rows.shift, shift_bytes, "shifts")));
 }
 
-/// The seeds that the caller's list has room for. \throw Error invalid_argument
+/// The seeds that the caller's list has room for.
+/// \throw Error invalid_argument
 std::uint32_t room_for_list(const DeviceDiagram::State& s, std::uint32_t n, const DeviceUncertain& list) {
   const cl::Context& context = *s.device.context();
   require_buffer(context, list.count, sizeof(cl_uint), "the number of uncertain seeds");
@@ -79,7 +81,8 @@ std::uint32_t room_for_list(const DeviceDiagram::State& s, std::uint32_t n, cons
   return in_32_bits(values_in(list.seeds, sizeof(cl_uint), "uncertain seeds"));
 }
 
-/// The entries that the caller's boundary walls have room for. \throw Error invalid_argument
+/// The entries that the caller's boundary walls have room for.
+/// \throw Error invalid_argument
 std::uint32_t room_for_boundary(const DeviceDiagram::State& s, std::uint32_t n,
                                 const DeviceBoundaryWalls& rows) {
   const cl::Context& context = *s.device.context();
@@ -93,13 +96,15 @@ std::uint32_t room_for_boundary(const DeviceDiagram::State& s, std::uint32_t n,
                              values_in(rows.measure, real, "the measures of boundary walls")));
 }
 
-/// How many values fit a buffer of the caller, which there is. \throw Error invalid_argument
+/// How many values fit a buffer of the caller, which there is.
+/// \throw Error invalid_argument
 std::size_t room_in(const cl::Context& context, cl_mem memory, std::size_t bytes_each, const char* name) {
   require_buffer(context, memory, bytes_each, name);
   return values_in(memory, bytes_each, name);
 }
 
-/// What the caller's cells have room for. \throw Error invalid_argument
+/// What the caller's cells have room for.
+/// \throw Error invalid_argument
 CellRooms room_for_cells(const DeviceDiagram::State& s, std::uint32_t n, const DeviceCells& cells) {
   const cl::Context& context = *s.device.context();
   const bool volume = s.domain.cell_dimension() == 3, periodic = s.domain.is_periodic();

@@ -1,5 +1,5 @@
 /// \file
-/// Errors of a device in a group name it. Internal.
+/// Errors of a device in a group name it.
 #pragma once
 
 #include <powercell/device.hpp>

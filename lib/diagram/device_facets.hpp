@@ -1,5 +1,5 @@
 /// \file
-/// What lies behind the facets of regions, in device memory. Internal.
+/// What lies behind the facets of regions, in device memory.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 namespace powercell {
 
 struct DeviceFacets {
-  /// Uploads them. \throw Error opencl, out_of_device_memory
+  /// Uploads them.
+  /// \throw Error opencl, out_of_device_memory
   explicit DeviceFacets(const DomainBuffers& domain) : offset(domain.context()), facet(domain.context()) {
     std::vector<std::uint32_t> numbers;
     numbers.reserve(2 * domain.mesh().facet.size());

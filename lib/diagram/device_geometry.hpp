@@ -1,5 +1,5 @@
 /// \file
-/// The geometry of a DeviceDiagram, from pieces to rows. Internal.
+/// The geometry of a DeviceDiagram, from pieces to rows.
 #pragma once
 
 #include <powercell/opencl.hpp>
@@ -46,7 +46,8 @@ class DeviceGeometry {
   };
   /// Counts what the pieces of each pair have.
   void count(const Clipped& from);
-  /// Writes the cells. \param status  final, of each seed in input order
+  /// Writes the cells.
+  /// \param status  final, of each seed in input order
   void write(const Clipped& from, cl_mem status, cl_mem frame, cl_mem positions, const DeviceCells& to,
              const CellRooms& room);
 

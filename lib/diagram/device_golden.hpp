@@ -1,6 +1,6 @@
 /// \file
 /// The golden diagram (lib/clip/golden.hpp) in device memory, to detect drivers that miscompile the programs
-/// of a DeviceDiagram. Internal.
+/// of a DeviceDiagram.
 #pragma once
 
 #include <powercell/device.hpp>
@@ -17,7 +17,8 @@ inline constexpr const char* device_density_file = "diagram/clip_density.cl";
 /// \param capacity  of the variant: its number in capacities()
 /// \throw Error self_test_failed
 void require_golden_measures(const Device& device, const Variant& variant, std::size_t capacity);
-/// The same with a density, for the other program. \pre variant.dimension is 3
+/// The same with a density, for the other program.
+/// \pre variant.dimension is 3
 void require_golden_masses(const Device& device, const Variant& variant, std::size_t capacity);
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// The repair of a DeviceDiagram: the cells that the device has left undecided. Internal.
+/// The repair of a DeviceDiagram: the cells that the device has left undecided.
 #pragma once
 
 #include <powercell/diagram.hpp>
@@ -44,7 +44,8 @@ class DeviceRepair {
   /// \param options  of the DeviceDiagram, with the precision that it has chosen
   DeviceRepair(const Device& device, const Domain& domain, Options options);
 
-  /// As DeviceDiagram::repair, of checked arguments. \pre n > 0
+  /// As DeviceDiagram::repair, of checked arguments.
+  /// \pre n > 0
   /// \param density  that of the diagram, at the vertices of its mesh; null: none
   std::uint32_t run(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
                     Rooms rooms, cl_mem density);

@@ -1,5 +1,5 @@
 /// \file
-/// The walls and boundary walls of a DeviceDiagram, from pieces to rows. Internal.
+/// The walls and boundary walls of a DeviceDiagram, from pieces to rows.
 #pragma once
 
 #include <powercell/opencl.hpp>
@@ -35,11 +35,13 @@ class DeviceWalls {
   /// Those of the clip kernel (kernels/diagram/clip_pairs.cl).
   void append_store(cl::Kernel& kernel) const;
   /// Makes rows of the stored faces, before the seeds' statuses are known: pieces without room become
-  /// PIECE_FULL. \param to  where walls are stored
+  /// PIECE_FULL.
+  /// \param to  where walls are stored
   void gather(const DeviceSeeds& seeds, const DevicePairs& pairs, cl_mem pair_status, std::uint32_t n,
               const DeviceAdjacency& to);
   /// Combines both sides of each wall, and writes the rows to the caller's memory with room for `capacity`
-  /// entries. \param status  final, of each seed in input order
+  /// entries.
+  /// \param status  final, of each seed in input order
   void write(const DeviceSeeds& seeds, cl_mem status, cl_mem frame, std::uint32_t n,
              const DeviceAdjacency& to, std::uint32_t capacity, cl_event* done);
   /// The same of the facets of the domain, which have one side.

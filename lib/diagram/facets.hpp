@@ -1,5 +1,5 @@
 /// \file
-/// One pass over the regions at the domain's boundary: which facets each cell has. Internal.
+/// One pass over the regions at the domain's boundary: which facets each cell has.
 #pragma once
 
 #include <powercell/results.hpp>

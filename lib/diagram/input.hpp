@@ -1,5 +1,5 @@
 /// \file
-/// The seeds of a Diagram, as given by the caller. Internal.
+/// The seeds of a Diagram, as given by the caller.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 /// \file
-/// The strategy by which the cells of the active seeds are computed. Internal.
+/// The strategy by which the cells of the active seeds are computed.
 #pragma once
 
 #include <array>
@@ -73,7 +73,8 @@ struct Workspace {
   bool keeps_walls = false;  ///< `walls` however large, because the next pass follows at once
 };
 
-/// Candidates for any pairs in a domain of one region. \throw Error as make_plan
+/// Candidates for any pairs in a domain of one region.
+/// \throw Error as make_plan
 std::unique_ptr<Candidates> search_all(const Setup& setup, const Scene& scene);
 
 /// Chooses the strategy, finds the pairs and makes the candidates.

@@ -1,5 +1,6 @@
 /// \file
-/// The geometry of some cells put among that of all, in the repair of a DeviceDiagram. Internal.
+/// Results of some cells put among those of all, in the repair of a DeviceDiagram: rows of walls, boundary
+/// walls and geometry.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,9 @@ Cells merge_cells(const Cells& all, std::span<const std::uint32_t> listed, const
 
 /// \throw Error invalid_argument if the cells do not fit the caller's buffers (how many there are)
 void require_room(const Cells& cells, const CellRooms& room);
-/// Writes the geometry to the caller's buffers. \pre there is room  \throw Error opencl
+/// Writes the geometry to the caller's buffers.
+/// \pre there is room
+/// \throw Error opencl
 void write_cells(const cl::Context& context, const DeviceCells& to, const Cells& cells, bool float32);
 
 /// Reads the rows from the caller's buffers. Waits.
@@ -46,7 +49,9 @@ BoundaryWalls merge_boundary(const BoundaryWalls& all, std::span<const std::uint
 
 /// \throw Error invalid_argument if the rows do not fit the caller's buffers (how many entries there are)
 void require_room(const BoundaryWalls& walls, std::uint32_t room);
-/// Writes the rows to the caller's buffers. \pre there is room  \throw Error opencl
+/// Writes the rows to the caller's buffers.
+/// \pre there is room
+/// \throw Error opencl
 void write_boundary(const cl::Context& context, const DeviceBoundaryWalls& to, const BoundaryWalls& walls,
                     bool float32);
 
@@ -68,7 +73,8 @@ struct DeviceRows {
 /// \param exact     their rows, in this order, with neighbours by index among all
 /// \param has_cell  by seed; those without a cell get no walls
 /// \param room      entries that the result may have
-/// \return symmetric rows, ascending \throw Error invalid_argument (more entries than `room`; how many)
+/// \return symmetric rows, ascending
+/// \throw Error invalid_argument (more entries than `room`; how many)
 template <class Real>
 DeviceRows<Real> merge_rows(const DeviceRows<Real>& all, std::span<const std::uint32_t> listed,
                             const Adjacency& exact, const std::vector<bool>& has_cell, std::uint32_t room);

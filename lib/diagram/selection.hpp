@@ -1,5 +1,5 @@
 /// \file
-/// Cells of some seeds, against all seeds. Internal.
+/// Cells of some seeds, against all seeds.
 #pragma once
 
 #include <cstdint>

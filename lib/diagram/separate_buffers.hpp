@@ -1,5 +1,5 @@
 /// \file
-/// Whether buffers of a caller share memory. Internal.
+/// Whether buffers of a caller share memory.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 /// \file
-/// The constant part of a Diagram. Internal.
+/// The constant part of a Diagram, and its progress.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,8 @@ class StageProgress {
     from_ = pass_from_ + from * (pass_to_ - pass_from_);
     to_ = pass_from_ + to * (pass_to_ - pass_from_);
   }
-  /// \param fraction  of the part   \return false if the caller asks to stop
+  /// \param fraction  of the part
+  /// \return false if the caller asks to stop
   bool report(double fraction) {
     reached_ = std::max(reached_, from_ + fraction * (to_ - from_));
     return callback_(reached_);
@@ -48,7 +49,8 @@ class StageProgress {
   double reached_ = 0;
 };
 
-/// Resolves Precision::automatic for a device; of a group double only if all have it. \throw Error no_fp64
+/// Resolves Precision::automatic for a device; of a group double only if all have it.
+/// \throw Error no_fp64
 Precision choose_precision(const Device& device, Precision asked);
 
 /// The mesh that cells are clipped by where it is not the domain's, kept with the domain: with a container

@@ -1,6 +1,5 @@
 /// \file
 /// Adds the cells computed from the boundary to those clipped as wholes, and finds which of these lie inside.
-/// Internal.
 #pragma once
 
 #include <vector>

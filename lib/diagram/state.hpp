@@ -1,5 +1,5 @@
 /// \file
-/// The state of a Diagram: a chain of values, each made from those before it. Internal.
+/// The state of a Diagram: a chain of values, each made from those before it.
 #pragma once
 
 #include <memory>
@@ -47,7 +47,8 @@ struct Diagram::State {
   void set_weights(std::span<const double> weights);
   void select(std::span<const std::uint32_t> seeds);
   void select_all();
-  /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
+  /// Computes the measures and the wanted results, as far as they are missing.
+  /// \throw as Diagram::compute
   void compute(Wanted want);
   /// \throw Error unsupported for a solid
   const Cells& cells();
@@ -68,7 +69,8 @@ struct Diagram::State {
   void compute_missing(Wanted want);
   /// Computes the selected cells of a solid: all cells, of which the others are dropped.
   void compute_in_solid(Wanted want);
-  /// Checks the laws of the results; discards the results if one fails. \throw Error internal
+  /// Checks the laws of the results; discards the results if one fails.
+  /// \throw Error internal
   void certify();
 };
 

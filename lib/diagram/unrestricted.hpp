@@ -1,5 +1,5 @@
 /// \file
-/// Decides which unrestricted cells lie inside the domain. Internal.
+/// Decides which unrestricted cells lie inside the domain.
 #pragma once
 
 #include <cstdint>

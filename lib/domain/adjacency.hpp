@@ -1,5 +1,5 @@
 /// \file
-/// Finds the facets that regions share, by sorting: linear in memory, near-linear in time. Internal.
+/// Finds the facets that regions share, by sorting: linear in memory, near-linear in time.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,8 @@ void for_each_shared(std::vector<FacetKey<N>>& keys, Group&& group) {
 }
 
 /// Appends to `repeated` the regions of a run that have the same opposite vertex as one before, and so all
-/// corners. \param apex  apex(slot): the vertex opposite the facet
+/// corners.
+/// \param apex  apex(slot): the vertex opposite the facet
 /// \return whether there are any
 template <std::size_t N, class Apex>
 bool add_repeated(std::span<const FacetKey<N>> shared, const RegionMesh& mesh, const Apex& apex,

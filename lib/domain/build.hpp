@@ -1,5 +1,5 @@
 /// \file
-/// The constructors of region meshes, one file each. Internal.
+/// The constructors of region meshes, one file each.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 /// \file
-/// The part that two tetrahedra, or two triangles of one plane, have in common. Internal.
+/// The part that two tetrahedra, or two triangles of one plane, have in common.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Cuts a part of a polygon into convex pieces that tile it exactly. Internal.
+/// Cuts a part of a polygon into convex pieces that tile it exactly.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Triangles of a surface that lie in one plane. Internal.
+/// Triangles of a surface that lie in one plane.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 /// \file
 /// The frame in which devices compute: coordinates are scaled by a power of two, which is exact, so that the
-/// domain has size 1 and powers of lengths stay in the range of floats. Internal.
+/// domain has size 1 and powers of lengths stay in the range of floats.
 #pragma once
 
 #include <array>
@@ -35,7 +35,8 @@ struct Frame {
   static constexpr std::size_t point_bytes = 32;
 
   /// Points with weights packed as the kernels' seed_t (kernels/base/real.cl).
-  /// \param positions count x dimension   \param weights count, or empty for 0
+  /// \param positions count x dimension
+  /// \param weights count, or empty for 0
   std::vector<std::byte> pack(int dimension, std::span<const double> positions,
                               std::span<const double> weights) const;
   /// The same, into `to`, which has room for count x point_bytes bytes.

@@ -1,6 +1,6 @@
 /// \file
 /// Measures of simplices and sums of many of them, in `long double` and from differences of coordinates, so
-/// that neither a distant origin nor a million regions cost digits. Internal.
+/// that neither a distant origin nor a million regions cost digits.
 #pragma once
 
 #include "lib/base/sums.hpp"

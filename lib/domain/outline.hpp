@@ -1,6 +1,5 @@
 /// \file
 /// Meshes for cells that lie entirely inside the domain: its boundary, and one region that contains it.
-/// Internal.
 #pragma once
 
 #include <span>
@@ -14,8 +13,8 @@ namespace powercell {
 RegionMesh boundary_of(const RegionMesh& mesh);
 
 /// The boundary facets of tetrahedra as triangles of a surface, outward, with the frame of `mesh`. Every edge
-/// of a triangle counts as boundary, because only its shape matters. \pre mesh is a solid, or consists of
-/// tetrahedra
+/// of a triangle counts as boundary, because only its shape matters.
+/// \pre mesh is a solid, or consists of tetrahedra
 RegionMesh boundary_surface(const RegionMesh& mesh);
 
 /// Numbers of the edges of triangles, by facet slot: the same for all edges between the same two positions.
@@ -29,7 +28,8 @@ RegionMesh boxes_around(const RegionMesh& mesh, std::span<const double> corners)
 bool has_inside(const RegionMesh& mesh);
 
 /// The mesh with one more region at the end, of the same shape, that contains the domain; its facets lie
-/// outside. \pre has_inside(mesh)
+/// outside.
+/// \pre has_inside(mesh)
 RegionMesh with_container(const RegionMesh& mesh);
 
 }  // namespace powercell

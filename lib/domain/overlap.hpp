@@ -1,5 +1,5 @@
 /// \file
-/// Elements of a mesh that overlap. Internal.
+/// Elements of a mesh that overlap.
 ///
 /// It suffices to try elements with an *open* facet, one without a neighbour on its other side. Follow a path
 /// from outside the mesh to a place that two elements cover, past edges and corners. Where the count rises

@@ -1,6 +1,5 @@
 /// \file
 /// The translations under which a periodic domain repeats (docs/mathematics.md, "Periodic domains").
-/// Internal.
 #pragma once
 
 #include <array>
@@ -22,10 +21,11 @@ class Period {
  public:
   using Row = std::array<double, 3>;
 
-  /// Of a box with periodic axes: the vectors are its edges along these. \throw Error invalid_domain
+  /// Of a box with periodic axes: the vectors are its edges along these.
+  /// \throw Error invalid_domain
   static Period of_box(std::span<const double> low, std::span<const double> high, std::array<bool, 3> axes);
-  /// Of `dimension` vectors from the corner `origin`. \throw Error invalid_domain (dependent vectors, or
-  /// lengths of the reduced basis 10^6 times apart)
+  /// Of `dimension` vectors from the corner `origin`.
+  /// \throw Error invalid_domain (dependent vectors, or lengths of the reduced basis 10^6 times apart)
   static Period of_lattice(std::span<const double> vectors, std::span<const double> origin);
 
   int dimension() const { return dimension_; }
@@ -78,9 +78,11 @@ class Period {
   PeriodGrid grid_;
 };
 
-/// Wraps points. \param positions  rows of coordinates \param wrapped  as long, receives Wrapped::position;
-/// may be the same \param shift  empty, or one a point, receives Wrapped::shift \return the first point with
-/// Wrapped::is_far, where the rest is not good, or the number of points
+/// Wraps points.
+/// \param positions  rows of coordinates
+/// \param wrapped  as long, receives Wrapped::position; may be the same
+/// \param shift  empty, or one a point, receives Wrapped::shift
+/// \return the first point with Wrapped::is_far, where the rest is not good, or the number of points
 std::size_t wrap_all(const Period& period, std::span<const double> positions, int threads,
                      std::span<double> wrapped, std::span<Shift> shift = {});
 

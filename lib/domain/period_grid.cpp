@@ -14,7 +14,8 @@ std::int64_t high_product(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>((static_cast<Int128>(a) * b) >> 64);
 }
 
-/// x * 2^by, rounded down. \pre it fits
+/// x * 2^by, rounded down.
+/// \pre it fits
 std::int64_t scaled(std::int64_t x, std::int64_t by) {
   return by >= 0 ? static_cast<std::int64_t>(static_cast<std::uint64_t>(x) << by) : x >> -by;
 }
@@ -115,7 +116,8 @@ PeriodGrid::Point PeriodGrid::moved(const Point& at, const std::array<std::int64
   return to;
 }
 
-/// Moves a point that the estimate has left beyond a border. \return the shift applied
+/// Moves a point that the estimate has left beyond a border.
+/// \return the shift applied
 std::array<std::int64_t, 3> PeriodGrid::settle_in_box(Point& at) const {
   std::array<std::int64_t, 3> by{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -130,7 +132,8 @@ std::array<std::int64_t, 3> PeriodGrid::settle_in_box(Point& at) const {
 }
 
 /// Of the images near the border, which rounding may have put on either side, takes the one first in the
-/// order of coordinates: so equal images are wrapped to equal places. \return the shift applied
+/// order of coordinates: so equal images are wrapped to equal places.
+/// \return the shift applied
 std::array<std::int64_t, 3> PeriodGrid::settle_in_lattice(Point& at) const {
   const Point first = at;
   std::array<std::int64_t, 3> best{}, v{};

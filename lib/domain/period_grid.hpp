@@ -1,5 +1,5 @@
 /// \file
-/// The lattice of a periodic domain in integers, with which host and devices wrap seeds alike. Internal.
+/// The lattice of a periodic domain in integers, with which host and devices wrap seeds alike.
 #pragma once
 
 #include <array>

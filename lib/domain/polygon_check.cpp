@@ -276,7 +276,8 @@ Check::Place Check::replace(Place first, Place last) {
   return is_first ? status_.begin() : std::next(before);
 }
 
-/// Refuses neighbours that cross. \param a  the lower one, or the end
+/// Refuses neighbours that cross.
+/// \param a  the lower one, or the end
 void Check::check_order(Place a, Place b) const {
   if (a == status_.end() || b == status_.end()) return;
   const RingEdge &e = edges_[lines_[*a].edge], &f = edges_[lines_[*b].edge];

@@ -1,5 +1,5 @@
 /// \file
-/// Whether the rings of a polygon bound what they are to bound. Internal.
+/// Whether the rings of a polygon bound what they are to bound.
 #pragma once
 
 #include <cstdint>

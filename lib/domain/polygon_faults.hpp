@@ -1,5 +1,5 @@
 /// \file
-/// What can be wrong with the rings of a polygon, in words. Internal.
+/// What can be wrong with the rings of a polygon, in words.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,8 @@ class PolygonFaults {
   std::string cut_in_pieces(std::uint32_t part, std::uint32_t v) const;
 
   /// What is wrong with a place near v that these rings wind around, so and so often each; nothing if it lies
-  /// in one part or in none. \pre no edges cross and no ring meets itself
+  /// in one part or in none.
+  /// \pre no edges cross and no ring meets itself
   std::optional<std::string> around(const std::map<std::uint32_t, int>& winding, std::uint32_t v) const;
 
  private:

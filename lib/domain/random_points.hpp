@@ -1,5 +1,5 @@
 /// \file
-/// Random points of a domain. Internal.
+/// Random points of a domain.
 #pragma once
 
 #include <optional>
@@ -34,7 +34,8 @@ class SolidPoints {
   BoxTree tree_;
 };
 
-/// As random_points(), for a solid. \throw Error unsupported if it fills less than a millionth of its box
+/// As random_points(), for a solid.
+/// \throw Error unsupported if it fills less than a millionth of its box
 std::vector<Sample> random_points_in_solid(const RegionMesh& mesh, std::size_t count,
                                            std::uint64_t random_seed);
 

@@ -1,5 +1,5 @@
 /// \file
-/// Reduction of lattice bases of two or three vectors. Internal.
+/// Reduction of lattice bases of two or three vectors.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 /// \file
-/// A domain as convex regions, the form that the enumeration of pairs and the kernels read. Internal.
+/// A domain as convex regions, the form that the enumeration of pairs and the kernels read, and what is
+/// computed from it alone.
 #pragma once
 
 #include <array>

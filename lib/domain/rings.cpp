@@ -21,7 +21,8 @@ const Ring& ring_of(const PolygonPart& part, std::uint32_t k) {
   throw Error(ErrorCode::invalid_domain, why);
 }
 
-/// The largest magnitude of a coordinate. \throw Error invalid_domain for a coordinate that is not finite
+/// The largest magnitude of a coordinate.
+/// \throw Error invalid_domain for a coordinate that is not finite
 double largest_coordinate(const Ring& ring, const std::string& where) {
   double largest = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {

@@ -1,5 +1,5 @@
 /// \file
-/// The rings of a polygon, cleaned, as indices of distinct vertices. Internal.
+/// The rings of a polygon, cleaned, as indices of distinct vertices.
 #pragma once
 
 #include <array>

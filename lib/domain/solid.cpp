@@ -60,7 +60,8 @@ class Shells {
   std::uint32_t patch_of(std::uint32_t row);
   bool is_turned(std::uint32_t row) const;
   /// Whether a line along an axis, just beyond triangle `row`, crosses an even number of triangles on its way
-  /// out. \return -1 if the line meets an edge
+  /// out.
+  /// \return -1 if the line meets an edge
   int even_beyond(std::uint32_t row, std::size_t axis, const double* at_line) const;
 
   std::span<const double> vertices_;

@@ -1,5 +1,5 @@
 /// \file
-/// Triangles of a surface that have more in common than corners and edges. Internal.
+/// Triangles of a surface that have more in common than corners and edges.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct TrianglePair {
 
 /// A pair of triangles that share a point which is not a corner of both nor on an edge of both: that cross,
 /// overlap in a plane, or touch otherwise. Exact. Of several pairs the one with the lowest rows.
-/// \param vertices  nv x 3, distinct positions   \param triangles  without corners in line
+/// \param vertices  nv x 3, distinct positions
+/// \param triangles  without corners in line
 std::optional<TrianglePair> find_improper_pair(std::span<const double> vertices,
                                                const std::vector<Corners>& triangles);
 

@@ -1,6 +1,6 @@
 /// \file
 /// Triangulation of one part of a polygon: a plane sweep, then Delaunay flips, then a proof that the
-/// triangles tile the part. Internal.
+/// triangles tile the part.
 #pragma once
 
 #include <cstdint>

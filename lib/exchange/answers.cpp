@@ -25,7 +25,8 @@ class VertexSearch {
  public:
   VertexSearch(const TreeSeeds& seeds, const MaySend& may_send) : seeds_(seeds), may_send_(may_send) {}
 
-  /// Answers the vertices of a cell. \param ranks  receives those to send
+  /// Answers the vertices of a cell.
+  /// \param ranks  receives those to send
   void answer(const Request& request, std::size_t cell, std::vector<std::uint8_t>& found,
               std::vector<std::uint32_t>& ranks) {
     const std::size_t d = seeds_.dimension();
@@ -86,7 +87,8 @@ class VertexSearch {
     return best;
   }
 
-  /// Appends the rank that a vertex is answered with. \return whether there is any
+  /// Appends the rank that a vertex is answered with.
+  /// \return whether there is any
   bool find_first(CutTest& point, std::vector<std::uint32_t>& ranks) const {
     std::uint32_t first = least(point);
     if (first == none) return false;

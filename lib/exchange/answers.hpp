@@ -1,6 +1,5 @@
 /// \file
-/// What those are answered that ask about seeds: which of them are near a rim, and which cut vertices off.
-/// Internal.
+/// Answers to another shard's queries: seeds near its rim, and seeds that cut off vertices of its cells.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,8 @@
 
 namespace powercell::exchange {
 
-/// The ranks of seeds that are likely neighbours of those of the rim, ascending. \param own  as in NearRim
+/// Ranks of likely neighbours of the seeds in the boundary leaves, ascending.
+/// \param own  as in NearRim
 std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads,
                                       std::pair<std::size_t, std::size_t> own = {});
 
@@ -25,7 +25,8 @@ struct FirstSeeds {
   std::vector<std::uint8_t> found;  ///< by vertex: 1 if there is one
 };
 
-/// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex.
+/// Finds, for each vertex, the seed whose bisector is crossed first on the way from the cell's seed to the
+/// vertex.
 FirstSeeds first_seeds(const TreeSeeds& seeds, const Request& request, const MaySend& may_send, int threads);
 
 }  // namespace powercell::exchange

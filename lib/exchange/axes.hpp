@@ -1,5 +1,5 @@
 /// \file
-/// Sums along the axes of the plane or of space. Internal.
+/// Sums along the axes of the plane or of space.
 #pragma once
 
 #include <cstddef>

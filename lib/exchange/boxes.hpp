@@ -1,5 +1,5 @@
 /// \file
-/// Boxes around seeds, and their distances. Internal.
+/// Boxes around seeds, and their distances.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// \file
-/// The vertices of a cell with names that its neighbours give them too. Internal.
+/// The vertices of a cell with names that its neighbours give them too.
 #pragma once
 
 #include <array>
@@ -36,7 +36,8 @@ struct VertexHash {
 };
 
 /// The distance of the farthest vertex of a cell from its seed, at least `least_radius`.
-/// \param row  of the cell in `cells` \param seed  its position
+/// \param row  of the cell in `cells`
+/// \param seed  its position
 double radius_of(const Cells& cells, std::size_t row, const double* seed);
 
 /// The vertices of one cell that are on its boundary. The memory is reused from cell to cell, and names are
@@ -55,7 +56,8 @@ class CellVertices {
  private:
   /// Lists the faces of each vertex of a piece.
   void find_faces(const Cells& cells, std::size_t piece);
-  /// Appends the name of a vertex, if it is on the boundary of the cell. \return whether it is
+  /// Appends the name of a vertex, if it is on the boundary of the cell.
+  /// \return whether it is
   bool add_name(const Cells& cells, std::size_t piece, std::size_t vertex, Handle self,
                 std::span<const Handle> handle);
 

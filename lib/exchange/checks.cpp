@@ -22,7 +22,8 @@ namespace powercell::exchange {
 
 namespace {
 
-/// The first fault of a shard's seeds in ascending order of their ids, with the id. \pre there is one
+/// The first fault of a shard's seeds in ascending order of their ids, with the id.
+/// \pre there is one
 InputFault first_by_id(const Setup& setup, const ShardSeeds& shard) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t k = 0; k < shard.ids.size(); ++k) order.emplace_back(shard.ids[k], k);
@@ -48,7 +49,8 @@ void require_sizes(const Setup& setup, const ShardSeeds& shard) {
 /// An id that is there twice, and the shards that have it.
 using Twice = std::array<std::uint64_t, 3>;
 
-/// The lowest id that occurs twice among letters. \return empty if none does
+/// The lowest id that occurs twice among letters.
+/// \return empty if none does
 std::vector<Twice> lowest_twice(const Post::Letters& letters) {
   std::vector<std::pair<std::uint64_t, int>> ids;
   std::vector<std::uint64_t> of_shard;

@@ -1,5 +1,5 @@
 /// \file
-/// What shards are refused for, with the same error wherever they are. Internal.
+/// What shards are refused for, with the same error wherever they are.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ struct ShardSeeds {
 /// Where those meet who know of a seed: it depends on the id alone.
 int meeting_shard(std::uint64_t id, int shards);
 
-/// \param what  needs what is required, for the message \throw Error unsupported
+/// \param what  needs what is required, for the message
+/// \throw Error unsupported
 void require_supported(const Domain& domain, const Options& options,
                        const std::string& what = "distributed seeds");
 

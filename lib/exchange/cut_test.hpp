@@ -1,5 +1,5 @@
 /// \file
-/// Whether seeds could cut off a vertex of a cell (docs/mathematics.md, "Shards"). Internal.
+/// Whether seeds could cut off a vertex of a cell (docs/mathematics.md, "Shards").
 #pragma once
 
 #include <algorithm>

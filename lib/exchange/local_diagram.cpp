@@ -79,7 +79,8 @@ std::vector<std::uint32_t> places(const std::vector<std::uint64_t>& ids,
   return places;
 }
 
-/// Who asks for a seed knows its id alone, so each is known where its id says. \pre called on all ranks
+/// Who asks for a seed knows its id alone, so each is known where its id says.
+/// \pre called on all ranks
 class Directory {
  public:
   Directory(const NamedSeeds& own, Post& post) : post_(post), known_{own.d, {}, {}, {}} {
@@ -99,7 +100,8 @@ class Directory {
     }
   }
 
-  /// Adds the seeds of these ids. \throw Error invalid_argument if nobody has one
+  /// Adds the seeds of these ids.
+  /// \throw Error invalid_argument if nobody has one
   void look_up(const std::vector<std::uint64_t>& wanted, NamedSeeds& seeds) {
     std::map<int, std::vector<std::uint64_t>> asked;
     for (const std::uint64_t id : wanted) asked[meeting_shard(id, post_.shards())].push_back(id);

@@ -1,5 +1,5 @@
 /// \file
-/// What shards tell each other: plain arrays of numbers. Internal.
+/// What shards tell each other: plain arrays of numbers.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 /// \file
-/// What a shard knows of the seeds of the others. Internal.
+/// What a shard knows of the seeds of the others.
 #pragma once
 
 #include <array>
@@ -97,14 +97,17 @@ class NearBoxes {
   /// Whether there are boxes for a cell of a seed in the box, which is not moved.
   /// \param farthest  that reaches as far as any, of a seed as light and as far from the origin as any
   bool may_meet(const BoxView& box, const CutTest& farthest) const;
-  /// Whether there are boxes for a cell. \param seed  its row \param radius  as of CutTest
+  /// Whether there are boxes for a cell.
+  /// \param seed  its row
+  /// \param radius  as of CutTest
   bool may_meet(const double* seed, double radius) const;
   /// Finds the boxes for a cell.
   void set(const double* seed, double radius);
   bool empty() const { return groups_.empty(); }
   /// Whether there are few.
   bool few() const { return complete_; }
-  /// Lists the shards that could cut off a point of that cell, or touch it. \param y  from the seed
+  /// Lists the shards that could cut off a point of that cell, or touch it.
+  /// \param y  from the seed
   void views_at(const Point& y, std::vector<View>& views);
   /// Whether seeds that a shard has not sent could cut off a point of that cell.
   bool may_cut_at(const View& view, const Point& y);

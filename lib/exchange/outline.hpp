@@ -1,5 +1,5 @@
 /// \file
-/// The top of a shard's tree, by which others see whether its seeds could matter to them. Internal.
+/// The top of a shard's tree, by which others see whether its seeds could matter to them.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ struct TreeNode {
 /// Nodes of a packed tree, in its order, that have each seed below them once.
 using TreeCut = std::vector<TreeNode>;
 
-/// The lowest level of a packed tree that has at most `most_nodes` nodes. \pre the tree has a level
+/// The lowest level of a packed tree that has at most `most_nodes` nodes.
+/// \pre the tree has a level
 std::size_t outline_level(const PackedTree& tree, std::size_t most_nodes);
 
 /// All nodes of a level.

@@ -1,5 +1,5 @@
 /// \file
-/// The seeds that a shard owns, and its answers to others. Internal.
+/// The seeds that a shard owns, and its answers to others.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,9 @@ class OwnSeeds {
   }
   const PackedTree& tree() const { return tree_; }
   /// Sets seeds aside that are proved hidden among all, where they are many: they need no cells, and nobody
-  /// needs to be sent them. \pre nothing was sent \throw Error as hidden_seeds
+  /// needs to be sent them.
+  /// \pre nothing was sent
+  /// \throw Error as hidden_seeds
   void set_hidden_aside(const Setup& setup);
   /// Those that have a better one here at their position.
   std::span<const std::uint32_t> duplicates() const { return set_.duplicate; }
@@ -62,16 +64,22 @@ class OwnSeeds {
   /// In the order of the tree.
   TreeSeeds in_tree() const { return {set_, tree_}; }
 
-  /// The rim towards another shard. \param other  its outline \param moves  as of find_rim
+  /// The rim towards another shard.
+  /// \param other  its outline
+  /// \param moves  as of find_rim
   Rim rim(const PackedTree& other, const std::vector<Point>& moves) const;
-  /// An outline of all seeds for another shard. \param asker  its number \param part  where its seeds are
+  /// An outline of all seeds for another shard.
+  /// \param asker  its number
+  /// \param part  where its seeds are
   /// \pre there are seeds
   PackedTree outline(int asker, const NearPart& part);
   /// The seeds near the rim of another shard; none if that is everywhere.
-  /// \param asker  its number \pre none were sent to it
+  /// \param asker  its number
+  /// \pre none were sent to it
   Halo near(int asker, const Rim& rim);
   /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex; and
-  /// an outline, if the shard that asks has none. \param asker  its number
+  /// an outline, if the shard that asks has none.
+  /// \param asker  its number
   Reply answer(int asker, const Request& request);
   /// By number of a shard: ids of hidden seeds that were sent to it, each once.
   std::map<int, std::vector<std::uint64_t>> take_hidden();

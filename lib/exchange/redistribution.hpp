@@ -1,5 +1,5 @@
 /// \file
-/// Seeds sent to other ranks, and the results sent back. Internal.
+/// Seeds sent to other ranks, and the results sent back.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,17 @@ namespace powercell::exchange {
 /// Ranges of a Hilbert curve through the seeds of all ranks, about as many seeds in each.
 class Redistribution {
  public:
-  /// Sends the seeds. \param own  of this rank, valid \param post  with one shard a rank
+  /// Sends the seeds.
+  /// \param own  of this rank, valid
+  /// \param post  with one shard a rank
   /// \param period  of the domain that the curve goes through, null if it is not periodic
   Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post,
                  const Period* period = nullptr);
 
   /// The seeds to compute on this rank; valid as long as this.
   ShardSeeds seeds() const { return {ids_, {dimension_, positions_, weights_}}; }
-  /// \param cells  of seeds() \return those of the seeds that were given
+  /// \param cells  of seeds()
+  /// \return those of the seeds that were given
   DistributedCells send_back(const DistributedCells& cells);
   /// Sent by this rank so far.
   std::uint64_t bytes() const { return bytes_; }

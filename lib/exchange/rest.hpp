@@ -1,5 +1,5 @@
 /// \file
-/// Outlines of the seeds of a shard that another was not sent. Internal.
+/// Outlines of the seeds of a shard that another was not sent.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,9 @@ namespace powercell::exchange {
 
 /// An outline of the seeds that were not sent: nodes of the cut, and lower ones where seeds were sent or the
 /// rim is near, down to boxes around the rest of a leaf.
-/// \param cut  of the tree \param rim  of the other shard  \param sent  ranks, ascending
+/// \param cut  of the tree
+/// \param rim  of the other shard
+/// \param sent  ranks, ascending
 PackedTree outline_of_rest(const TreeSeeds& seeds, const TreeCut& cut, const Rim& rim,
                            std::span<const std::uint32_t> sent);
 /// The same with a tree of boxes for the rim, in which a distance takes the place of a weight: nodes up to it

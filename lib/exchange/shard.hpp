@@ -1,6 +1,6 @@
 /// \file
 /// One shard of the seeds of a power diagram: computes the cells of its own seeds, with those of others that
-/// it asks for (docs/scale.md). Internal.
+/// it asks for (docs/scale.md).
 #pragma once
 
 #include <powercell/diagram.hpp>
@@ -36,7 +36,8 @@ struct ShardCells {
 ///     send twins(), answer them by better_twins(), mark_duplicates(); take_cells()
 class Shard {
  public:
-  /// \param number  among all shards \param period  of the domain, null if it is not periodic
+  /// \param number  among all shards
+  /// \param period  of the domain, null if it is not periodic
   /// \param walls   whether to list neighbours and walls in the end, not only to count them
   /// \throw Error as OwnSeeds
   Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads,
@@ -48,7 +49,8 @@ class Shard {
   std::size_t open_cells() const { return open_.size(); }
   std::uint64_t clipped_cells() const { return clipped_; }  ///< counted each time
   /// Closes the cells of seeds that are hidden by others of the shard, as far as this is known without
-  /// clipping. \throw Error as OwnSeeds::set_hidden_aside
+  /// clipping.
+  /// \throw Error as OwnSeeds::set_hidden_aside
   void set_hidden_aside(const Setup& setup);
   void meet(std::shared_ptr<const FirstOutlines> first);
   /// Questions to the shards of some numbers for their outlines.
@@ -58,8 +60,10 @@ class Shard {
   std::map<int, Rim> rims() const;
   void take(int from, Halo&& halo);
 
-  /// Clips the open cells among all seeds at hand. \return requests to the shards of some numbers
-  /// \param diagram  in the domain; its seeds and selection are replaced \throw Error as Diagram
+  /// Clips the open cells among all seeds at hand.
+  /// \return requests to the shards of some numbers
+  /// \param diagram  in the domain; its seeds and selection are replaced
+  /// \throw Error as Diagram
   std::map<int, Request> clip(Diagram::State& diagram);
   void take(int from, Reply&& reply);
   /// Closes the cells of which no vertex can be cut off any more.
@@ -123,7 +127,8 @@ class Shard {
   std::vector<Handle> at_hand(bool all) const;
   /// Clips the open cells and keeps their results.
   void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
-  /// Clips the open cells with their geometry. \return requests for what could cut them
+  /// Clips the open cells with their geometry.
+  /// \return requests for what could cut them
   std::map<int, Request> ask_all(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
   /// Adds seeds of others to those at hand.
   void take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows);
@@ -134,15 +139,18 @@ class Shard {
   }
   /// In the order in which the seeds were given.
   Measures take_measures();
-  /// Leaves those cells open that other shards may cut, by how far they reach. \param reach  by own seed
+  /// Leaves those cells open that other shards may cut, by how far they reach.
+  /// \param reach  by own seed
   void close_far_cells(const std::vector<double>& reach);
   /// Adds the vertices of a cell to the requests that no shard was asked about yet.
   void ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,
            std::map<int, Request>& requests);
-  /// Adds a vertex to the request to a shard. \param row  of the cell's seed, as the shard sees it
+  /// Adds a vertex to the request to a shard.
+  /// \param row  of the cell's seed, as the shard sees it
   void add_vertex(const double* row, double radius, const Point& vertex, Request& request) const;
   /// Cells reach far at first: leaves those shards in asked_ that may cut off more than the vertex, nearer to
-  /// the seed. The others are asked later, if they still matter. \return whether none was removed
+  /// the seed. The others are asked later, if they still matter.
+  /// \return whether none was removed
   bool keep_nearest(NearBoxes& near, const Point& vertex);
   /// The radius of a ball around a cell's seed that contains the vertices, however far from the domain the
   /// seed was given.

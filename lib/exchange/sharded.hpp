@@ -1,6 +1,5 @@
 /// \file
 /// Power diagrams whose seeds are shared out to shards, computed one shard after the other on one device.
-/// Internal.
 #pragma once
 
 #include <powercell/diagram.hpp>

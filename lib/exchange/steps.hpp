@@ -1,5 +1,5 @@
 /// \file
-/// The steps of the shards that are here, in time with those elsewhere. Internal.
+/// The steps of the shards that are here, in time with those elsewhere.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,8 @@ class Steps {
   Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post,
         const Guess& guess = &Shard::rims);
 
-  /// \return the cells of each shard here \throw Error as Diagram
+  /// \return the cells of each shard here
+  /// \throw Error as Diagram
   std::vector<ShardCells> run();
   /// Of the shards here. Of two shards in different places one alone counts what passes between them.
   const ExchangeReport& report() const { return report_; }

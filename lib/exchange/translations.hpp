@@ -1,5 +1,5 @@
 /// \file
-/// The translations that bring seeds of a periodic domain near each other. Internal.
+/// Lattice translations to neighbouring periods.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,8 @@
 
 namespace powercell::exchange {
 
-/// Those by which any wrapped seed can be moved to where images of another one matter to its cell, which has
-/// the images of its own seed already; the first is none. That one alone if the domain is not periodic.
-/// \param period  null if not
+/// Lattice translations to the periods whose images may matter to a wrapped seed's cell; the first is zero.
+/// Zero alone without periods. \param period  null if the domain is not periodic
 std::vector<Point> translations(const Period* period);
 
 /// A row of position and weight, or a box, moved. Wrapped seeds are moved without rounding.

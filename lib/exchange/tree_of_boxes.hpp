@@ -1,5 +1,5 @@
 /// \file
-/// A packed tree over boxes in the place of seeds. Internal.
+/// A packed tree over boxes in the place of seeds.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// \file
-/// Seeds in the order of a packed tree over them, wherever they are. Internal.
+/// Seeds in the order of a packed tree over them, wherever they are.
 #pragma once
 
 #include <algorithm>

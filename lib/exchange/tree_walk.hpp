@@ -1,5 +1,5 @@
 /// \file
-/// Searches in packed trees from the root. Internal.
+/// Searches in packed trees from the root.
 #pragma once
 
 #include <algorithm>

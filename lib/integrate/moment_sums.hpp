@@ -1,5 +1,5 @@
 /// \file
-/// Sums the moments of pieces into the measures of cells, chunk by chunk. Internal.
+/// Sums the moments of pieces into the measures of cells, chunk by chunk.
 #pragma once
 
 #include <array>
@@ -46,7 +46,8 @@ class MomentSums {
   /// \param moments  by rank
   void replace(std::span<const std::uint32_t> ranks, const PairMoments& moments);
 
-  /// Sets the measures of a rank without pairs. \param moments  2 + dimension, in device units
+  /// Sets the measures of a rank without pairs.
+  /// \param moments  2 + dimension, in device units
   void set(std::uint32_t rank, std::span<const double> moments);
 
   const std::vector<SeedStatus>& status() const { return measures_.status; }
@@ -60,13 +61,15 @@ class MomentSums {
   const cl::RawBuffer& sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
                                      std::uint64_t end, std::uint32_t first, std::uint32_t last,
                                      const cl::RawBuffer& moments);
-  /// The same on the host, where the moments are there. \return a row of sums for each rank
+  /// The same on the host, where the moments are there.
+  /// \return a row of sums for each rank
   const std::byte* sum_on_host(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
                                std::uint64_t end, std::uint32_t first, std::uint32_t last,
                                const std::byte* moments);
   /// A row of sums in the device's precision.
   std::array<double, 5> row_at(const std::byte* row) const;
-  /// Sets the measures of the ranks [first, last). \param sums  a row for each rank
+  /// Sets the measures of the ranks [first, last).
+  /// \param sums  a row for each rank
   void set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums);
 
   const DomainBuffers& domain_;

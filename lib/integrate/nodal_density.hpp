@@ -1,5 +1,5 @@
 /// \file
-/// Integrals over cells of a density given at the vertices of the domain's mesh. Internal.
+/// Integrals over cells of a density given at the vertices of the domain's mesh.
 #pragma once
 
 #include <powercell/domain.hpp>

@@ -1,5 +1,5 @@
 /// \file
-/// Candidate neighbours for the clip kernels: the interface between search and clipping. Internal.
+/// Candidate neighbours for the clip kernels: the interface between search and clipping.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ class Candidates {
   /// of every other and meet every region.
   virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;
   /// The same candidates on another device, which has the same domain, seeds and tree. Reads from this device
-  /// what is not on the host. \throw Error opencl, out_of_device_memory, build_failed
+  /// what is not on the host.
+  /// \throw Error opencl, out_of_device_memory, build_failed
   virtual std::unique_ptr<Candidates> on(const Scene& scene) const = 0;
 
   // For lists of candidates, which are made for each launch. The tree needs none of this.

@@ -1,5 +1,5 @@
 /// \file
-/// The walls of cells with other cells. Internal.
+/// The walls of cells with other cells.
 #pragma once
 
 #include <cstdint>

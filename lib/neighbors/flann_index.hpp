@@ -1,5 +1,5 @@
 /// \file
-/// Nearest lifted seeds by FLANN's KDTreeSingleIndex. Only flann.cpp includes FLANN. Internal.
+/// Nearest lifted seeds by FLANN's KDTreeSingleIndex. Only flann.cpp includes FLANN.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Seeds that are proved hidden before any cell is clipped. Internal.
+/// Seeds that are proved hidden before any cell is clipped.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,8 @@ struct ListUse {
 
 class ListCandidates : public Candidates {
  public:
-  /// Builds the KD-tree over the lifted seeds. \throw Error invalid_argument (options)
+  /// Builds the KD-tree over the lifted seeds.
+  /// \throw Error invalid_argument (options)
   ListCandidates(const Scene& scene, const Options& options);
   std::string_view file() const override { return "clip/by_list.cl"; }
   std::string_view kernel() const override { return "clip_by_list_kernel"; }
@@ -35,7 +36,8 @@ class ListCandidates : public Candidates {
   bool is_shared() const override { return false; }
   double host_seconds() const override { return host_seconds_; }
 
-  /// Turns the counts of use() on. \pre no clipper was made with these candidates yet
+  /// Turns the counts of use() on.
+  /// \pre no clipper was made with these candidates yet
   void count_use() { counting_ = true; }
   /// The counts so far.
   const ListUse& use();

@@ -1,5 +1,5 @@
 /// \file
-/// The packed tree in blocks of eight, and the near leaves of each leaf, in device memory. Internal.
+/// The packed tree in blocks of eight, and the near leaves of each leaf, in device memory.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ struct Variant;
 /// (kernels/neighbors/blocks.cl, near.cl).
 class TreeBlocks {
  public:
-  /// Builds the kernels for the precision and dimensions of `variant`. \param buffers  receive the blocks
+  /// Builds the kernels for the precision and dimensions of `variant`.
+  /// \param buffers  receive the blocks
   TreeBlocks(const std::shared_ptr<cl::Context>& context, const Variant& variant,
              std::shared_ptr<BlockBuffers> buffers);
 
@@ -27,7 +28,8 @@ class TreeBlocks {
     std::uint32_t seed_count, node_count;
     int levels;
   };
-  /// Enqueues both steps, without waiting. \param cells  only these first seeds have cells; by default all
+  /// Enqueues both steps, without waiting.
+  /// \param cells  only these first seeds have cells; by default all
   void enqueue(const Tree& tree) { enqueue(tree, tree.seed_count); }
   void enqueue(const Tree& tree, std::uint32_t cells) {
     pack(tree);

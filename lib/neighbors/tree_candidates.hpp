@@ -1,6 +1,5 @@
 /// \file
 /// Candidates from a search of the packed tree in the kernel, or from lists that replace the search.
-/// Internal.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 /// \file
-/// What a folder is for. Internal.
+/// What a folder is for.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 /// \file
-/// Files of numbers: written once from front to end, then mapped into memory. Internal.
+/// Files of numbers: written once from front to end, then mapped into memory.
 #pragma once
 
 #include <cstddef>
@@ -64,8 +64,8 @@ class MappedFile {
   ~MappedFile();
 
   std::size_t bytes() const { return bytes_.size(); }
-  /// Numbers from a byte on; its offset must be a multiple of their size. \throw Error invalid_file if the
-  /// file ends before them
+  /// Numbers from a byte on; its offset must be a multiple of their size.
+  /// \throw Error invalid_file if the file ends before them
   template <class T>
   std::span<const T> numbers(std::size_t offset, std::size_t count) const {
     require(offset, count, sizeof(T));
@@ -89,8 +89,8 @@ class MappedFile {
 /// A folder of which one process makes use at a time.
 class LockedFolder {
  public:
-  /// Makes the folder if it is not there. \throw Error write_failed (it cannot be made; another process has
-  /// it)
+  /// Makes the folder if it is not there.
+  /// \throw Error write_failed (it cannot be made; another process has it)
   explicit LockedFolder(std::string path);
   LockedFolder(const LockedFolder&) = delete;
   LockedFolder& operator=(const LockedFolder&) = delete;
@@ -100,7 +100,8 @@ class LockedFolder {
   /// But for the lock, and for what a FileWriter that was killed has left of the file of that name.
   bool is_empty(const std::string& unfinished) const;
   void remove_file(const std::string& name) const;
-  /// With all that is in it. \throw Error write_failed
+  /// With all that is in it.
+  /// \throw Error write_failed
   void remove();
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// The cells of pieces in files, in the order of the seeds' indices. Internal.
+/// The cells of pieces in files, in the order of the seeds' indices.
 #pragma once
 
 #include <cstdint>

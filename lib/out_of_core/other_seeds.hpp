@@ -1,5 +1,5 @@
 /// \file
-/// The seeds of all other pieces, which answer a piece as one other shard does. Internal.
+/// The seeds of all other pieces, which answer a piece as one other shard does.
 #pragma once
 
 #include <cstdint>
@@ -30,11 +30,12 @@ class OtherSeeds {
  public:
   OtherSeeds(const Store& store, const Statuses& statuses, int threads);
 
-  /// Answers are for a piece from here on. \param own  the tree of its seeds
+  /// Answers are for a piece from here on.
+  /// \param own  the tree of its seeds
   /// \return an outline of the seeds of the others, finer near those of the piece
   PackedTree begin(std::size_t piece, const PackedTree& own);
-  /// The seeds near the rim of the piece, and the heaviest of all, which may reach it from anywhere. \pre
-  /// none were sent since begin()
+  /// The seeds near the rim of the piece, and the heaviest of all, which may reach it from anywhere.
+  /// \pre none were sent since begin()
   exchange::Halo near(const exchange::Rim& rim);
   exchange::Reply answer(const exchange::Request& request);
   std::uint64_t sent() const { return sent_count_; }  ///< in all

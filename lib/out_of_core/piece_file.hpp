@@ -1,5 +1,5 @@
 /// \file
-/// The cells of a piece in a file. Internal.
+/// The cells of a piece in a file.
 #pragma once
 
 #include <array>
@@ -25,15 +25,18 @@ struct PieceCells {
 };
 
 /// Sets `id`, puts ids in the place of the ranks of neighbours and foreign seeds, and sorts each row of walls
-/// by them. \param number  of the piece in the store
+/// by them.
+/// \param number  of the piece in the store
 void name_by_ids(PieceCells& piece, const Store& store, std::size_t number, int threads);
 
 /// Writes files of pieces in the order of ids, each as a whole or not at all, while the caller goes on.
 class PieceWriter {
  public:
-  /// Waits for the file before. \throw Error write_failed (of that one)
+  /// Waits for the file before.
+  /// \throw Error write_failed (of that one)
   void write(std::string path, PieceCells&& piece);
-  /// Waits for the last file. \throw Error write_failed
+  /// Waits for the last file.
+  /// \throw Error write_failed
   void finish() { last_.finish(); }
   std::uint64_t bytes() const { return bytes_; }  ///< of all files, after finish()
 

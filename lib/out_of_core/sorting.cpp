@@ -96,7 +96,8 @@ class Sorter {
     in_blocks(file.bytes() / row_bytes(), read, use);
   }
 
-  /// Seeds along the curve. \param all  whether these are all seeds, which nobody has checked yet
+  /// Seeds along the curve.
+  /// \param all  whether these are all seeds, which nobody has checked yet
   void sort(const Blocks& blocks, std::uint64_t count, bool all) {
     if (!all && count <= piece_) return keep(blocks, count);
     // One part in many thousands is too large by chance, and is divided again.
@@ -189,7 +190,8 @@ class Sorter {
     return last;
   }
 
-  /// Writes a file for each part. \return their numbers of seeds
+  /// Writes a file for each part.
+  /// \return their numbers of seeds
   std::vector<std::uint64_t> divide(const Blocks& blocks, const Survey& survey,
                                     const std::vector<std::uint64_t>& last, bool all) {
     std::vector<FileWriter> files;

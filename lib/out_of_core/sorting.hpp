@@ -1,5 +1,5 @@
 /// \file
-/// Seeds from a source, sorted in files into pieces along a Hilbert curve. Internal.
+/// Seeds from a source, sorted in files into pieces along a Hilbert curve.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// All seeds of a diagram in files, piece after piece along a Hilbert curve. Internal.
+/// All seeds of a diagram in files, piece after piece along a Hilbert curve.
 #pragma once
 
 #include <cstdint>
@@ -32,10 +32,12 @@ class StoreWriter {
   StoreWriter(const LockedFolder& folder, bool periodic);
 
   /// Adds a piece: seeds along the curve, none of them a duplicate; nothing if there are none. Waits for the
-  /// piece before. \throw Error write_failed (of that one)
+  /// piece before.
+  /// \throw Error write_failed (of that one)
   void add(SeedBlock&& piece);
   void add_duplicates(std::uint64_t count) { duplicates_ += count; }
-  /// The store is there as a whole from here on. \return bytes written
+  /// The store is there as a whole from here on.
+  /// \return bytes written
   std::uint64_t close();
 
  private:
@@ -52,7 +54,8 @@ class Store {
  public:
   /// Whether a folder has one.
   static bool is_in(const LockedFolder& folder);
-  /// \pre is_in(folder) \throw Error invalid_file
+  /// \pre is_in(folder)
+  /// \throw Error invalid_file
   Store(const LockedFolder& folder, int dimension);
 
   std::size_t size() const { return ids_.size(); }

@@ -1,5 +1,5 @@
 /// \file
-/// The candidates of one region, or of a box of regions. Internal.
+/// The candidates of one region, or of a box of regions.
 #pragma once
 
 #include <cstdint>

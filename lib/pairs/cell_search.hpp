@@ -1,5 +1,5 @@
 /// \file
-/// The regions that a cell can meet, found from its walls. Internal.
+/// The regions that a cell can meet, found from its walls.
 #pragma once
 
 #include <algorithm>

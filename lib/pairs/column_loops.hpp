@@ -1,6 +1,6 @@
 /// \file
 /// The inner loops of the search in lists, over seeds in columns, compiled for several vector units.
-/// Internal.
+///
 ///
 /// There is a column for each coordinate, then one for the weight. The loops subtract `origin` from the
 /// coordinates; points and boxes are relative to it.
@@ -30,7 +30,8 @@ void raise_box_excess(std::size_t count, int dimension, const double* const* col
 void raise_node_excess(std::size_t count, int dimension, const double* const* column, const double* size,
                        const double* tester, double* excess);
 
-/// The first index of the least value. \pre count > 0
+/// The first index of the least value.
+/// \pre count > 0
 std::size_t least(std::size_t count, const double* values);
 
 }  // namespace powercell::pairs::loops

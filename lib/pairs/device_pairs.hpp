@@ -1,5 +1,5 @@
 /// \file
-/// Finds on the device which seeds can meet which regions. Internal.
+/// Finds on the device which seeds can meet which regions.
 #pragma once
 
 #include <cstdint>

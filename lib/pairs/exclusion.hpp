@@ -1,5 +1,5 @@
 /// \file
-/// Bounds of power distances at the corners of a part, and the test that excludes seeds. Internal.
+/// Bounds of power distances at the corners of a part, and the test that excludes seeds.
 ///
 /// By (11), seed i does not meet a convex part P if some seed j has pow_j(x) < pow_i(x) at all corners of P.
 /// Rounding must never exclude a seed that meets P, so the test is  lower_i(x) > upper_j(x)  with bounds that

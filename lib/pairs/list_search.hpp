@@ -1,5 +1,5 @@
 /// \file
-/// The seeds of a list that can meet a box or region. Internal.
+/// The seeds of a list that can meet a box or region.
 #pragma once
 
 #include <array>

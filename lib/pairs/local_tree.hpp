@@ -1,6 +1,5 @@
 /// \file
 /// The packed tree relative to an origin near a region: distances, bounds, nearest seed in power distance.
-/// Internal.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +45,8 @@ inline RankRange ranks(const PackedTree& tree, Entry e) {
 }
 static_assert(PackedTree::fan == 8, "ranks() counts in powers of 8");
 
-/// Calls body(child) for the children of a node. \pre not e.is_seed()
+/// Calls body(child) for the children of a node.
+/// \pre not e.is_seed()
 template <class Body>
 void for_children(const PackedTree& tree, Entry e, const Body& body) {
   const std::size_t below = e.level == 0 ? tree.seeds

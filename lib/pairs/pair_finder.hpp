@@ -1,5 +1,5 @@
 /// \file
-/// Finds which seeds can meet which regions of the domain. Internal.
+/// Finds which seeds can meet which regions of the domain.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,8 @@ struct Pairs {
 /// kept with the mesh for other finders. Thread-safe only where stated.
 class PairFinder {
  public:
-  /// Keeps a reference to the mesh. \param threads  0 for all
+  /// Keeps a reference to the mesh.
+  /// \param threads  0 for all
   PairFinder(const RegionMesh& mesh, int threads);
   ~PairFinder();
 

@@ -1,5 +1,5 @@
 /// \file
-/// Convex parts that a region is split into during the search for candidates. Internal.
+/// Convex parts that a region is split into during the search for candidates.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// \file
-/// Whether a box lies in a region. Internal.
+/// Whether a box lies in a region.
 #pragma once
 
 #include <algorithm>

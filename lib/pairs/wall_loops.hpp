@@ -1,6 +1,6 @@
 /// \file
 /// The inner loops of the search by cells: the bisectors of a cell's walls against eight boxes or regions,
-/// compiled for several vector units. Internal.
+/// compiled for several vector units.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 /// \file
-/// The images of seeds that bound the cells of a periodic domain, in device memory. Internal.
+/// The images of seeds that bound the cells of a periodic domain, in device memory.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,21 @@ namespace powercell {
 /// many these are is known to the device alone.
 class DeviceImages {
  public:
-  /// Uploads what it needs of the lattice and builds the kernels. \param defines  Variant::defines()
+  /// Uploads what it needs of the lattice and builds the kernels.
+  /// \param defines  Variant::defines()
   DeviceImages(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
                const Period& period, const Frame& frame);
 
-  /// Enqueues the search. \param seeds  of `count`, in order; at least one
+  /// Enqueues the search.
+  /// \param seeds  of `count`, in order; at least one
   /// \param most  images to make room for, beyond which they are dropped; 0 to read how many there are, which
   ///   waits for the queue
   /// \throw Error opencl; out_of_device_memory, also if there are too many seeds and images
   void enqueue(const DeviceSeeds& seeds, std::uint32_t count, std::uint32_t most);
 
   /// Enqueues the proof for the cells of all seeds: those without become PIECE_MORE.
-  /// \param reach  a real by rank, as clip kernels write it  \param status  by rank: PIECE_...
+  /// \param reach  a real by rank, as clip kernels write it
+  /// \param status  by rank: PIECE_...
   void prove(const DeviceSeeds& seeds, std::uint32_t count, cl_mem reach, cl_mem status);
 
   std::uint32_t total = 0;               ///< seeds and places for images

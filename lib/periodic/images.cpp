@@ -38,7 +38,8 @@ std::array<double, 3> margins(const Period& period, double margin) {
 struct ShiftRange {
   Shift low{}, high{};
 
-  /// \param f  the seed's fractions  \param margin  along each vector; below 0 the range is empty
+  /// \param f  the seed's fractions
+  /// \param margin  along each vector; below 0 the range is empty
   ShiftRange(const Period& period, const Period::Row& f, const std::array<double, 3>& margin) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(period.count()); ++k) {
       low[k] = static_cast<std::int32_t>(std::ceil(-margin[k] - f[k]));

@@ -1,5 +1,5 @@
 /// \file
-/// The images of seeds that bound the cells of a periodic domain. Internal.
+/// The images of seeds that bound the cells of a periodic domain.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Radix sort on the device. Internal.
+/// Radix sort on the device.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,14 @@ class RadixSort {
     std::uint32_t tiles = 0;  ///< largest number of work-items of a pass
     std::size_t local = 0;    ///< size of a work-group
   };
-  /// Builds the kernels. \throw Error build_failed, opencl
+  /// Builds the kernels.
+  /// \throw Error build_failed, opencl
   explicit RadixSort(const std::shared_ptr<cl::Context>& context) : RadixSort(context, Shape{}) {}
   RadixSort(const std::shared_ptr<cl::Context>& context, Shape shape);
 
   /// Sorts the first `count` pairs by ascending key; equal keys keep their order.
-  /// \param keys    ulong  \param values  uint
+  /// \param keys  ulong
+  /// \param values  uint
   /// \param bits    all keys must be below 2^bits; fewer bits need fewer passes
   /// \throw Error out_of_device_memory, opencl
   void enqueue(cl_mem keys, cl_mem values, std::uint32_t count, unsigned bits = 64);

@@ -1,5 +1,5 @@
 /// \file
-/// Exclusive prefix sums on the device. Internal.
+/// Exclusive prefix sums on the device, and compaction by them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace powercell {
 class ExclusiveScan {
  public:
   enum class Type { uint32, uint64 };
-  /// Builds the kernels. \throw Error build_failed, opencl
+  /// Builds the kernels.
+  /// \throw Error build_failed, opencl
   ExclusiveScan(const std::shared_ptr<cl::Context>& context, Type type);
 
   /// Replaces each of the first `count` values by the sum of those before it, modulo 2^32 or 2^64.
@@ -33,7 +34,8 @@ class ExclusiveScan {
 /// Lists the entries of an array that have a wanted value. Enqueues without waiting.
 class Compaction {
  public:
-  /// Builds the kernels. \throw Error build_failed, opencl
+  /// Builds the kernels.
+  /// \throw Error build_failed, opencl
   explicit Compaction(const std::shared_ptr<cl::Context>& context);
 
   /// \param values   count uints

@@ -1,5 +1,5 @@
 /// \file
-/// How work over many items is cut into tiles, of which each is one work-item's. Internal.
+/// How work over many items is cut into tiles, of which each is one work-item's.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// \file
-/// The regions and their groups in blocks of eight, one vector per coordinate. Internal.
+/// The regions and their groups in blocks of eight, one vector per coordinate.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// A tree over the regions: a compact order, and bounding boxes of consecutive groups. Internal.
+/// A tree over the regions: a compact order, and bounding boxes of consecutive groups.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Point location among the regions. Internal.
+/// Point location among the regions.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace powercell {
 
-/// Keeps references. Thread-safe. \pre the regions are convex polygons in the plane or tetrahedra
+/// Keeps references. Thread-safe.
+/// \pre the regions are convex polygons in the plane or tetrahedra
 class RegionLocator {
  public:
   RegionLocator(const RegionMesh& mesh, const RegionGroups& groups, const RegionBlocks& blocks)

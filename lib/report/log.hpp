@@ -1,5 +1,5 @@
 /// \file
-/// Writing to the log (powercell/log.hpp). Internal.
+/// Writing to the log (powercell/log.hpp).
 #pragma once
 
 #include <concepts>

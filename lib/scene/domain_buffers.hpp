@@ -1,5 +1,5 @@
 /// \file
-/// The domain in device memory. Internal.
+/// The domain in device memory.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,8 @@ std::vector<std::int32_t> regions_behind(const RegionMesh& mesh);
 /// The regions of a domain, in the units of its frame. Immutable.
 class DomainBuffers {
  public:
-  /// Keeps a reference to the mesh. \throw Error opencl, out_of_device_memory
+  /// Keeps a reference to the mesh.
+  /// \throw Error opencl, out_of_device_memory
   DomainBuffers(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32);
 
   const std::shared_ptr<cl::Context>& context() const { return context_; }

@@ -1,5 +1,5 @@
 /// \file
-/// Everything that a clip kernel reads: the domain, and the seeds with their packed tree. Internal.
+/// Everything that a clip kernel reads: the domain, and the seeds with their packed tree.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 /// \file
-/// The caller's seeds in device memory, checked, packed and ordered there. Internal.
+/// The caller's seeds in device memory: checked, wrapped into a periodic domain, packed and ordered there.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,14 @@ namespace powercell {
 /// Wraps seeds to the positions that Period::wrap finds, bit by bit. Enqueues without waiting.
 class DeviceWrap {
  public:
-  /// Uploads the lattice and builds the kernel. \param defines  Variant::defines()
+  /// Uploads the lattice and builds the kernel.
+  /// \param defines  Variant::defines()
   DeviceWrap(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
              const Period& period, const Frame& host_frame);
 
-  /// As DeviceSeeds::enqueue. \param packed  written: seed_t  \param status  written: SEED_OK or _INVALID
+  /// As DeviceSeeds::enqueue.
+  /// \param packed  written: seed_t
+  /// \param status  written: SEED_OK or _INVALID
   void enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count, cl_mem packed,
                cl_mem status);
 
@@ -38,14 +41,16 @@ class DeviceWrap {
 /// that they affect no cell (kernels/base/point.cl). Enqueues without waiting.
 class DeviceSeeds {
  public:
-  /// Builds the kernels. \param defines  Variant::defines() for the precision and dimension
+  /// Builds the kernels.
+  /// \param defines  Variant::defines() for the precision and dimension
   /// \param period      of a periodic domain, into which seeds are wrapped; else null
   /// \param host_frame  the numbers of `frame` below
   DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
               bool float32, const Period* period, const Frame& host_frame);
 
   /// \param frame      FRAME_SIZE reals (kernels/layout.h)
-  /// \param positions  count x d reals  \param count  at least 1
+  /// \param positions  count x d reals
+  /// \param count  at least 1
   /// \param weights    count reals, or null for zeros
   void enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count);
 

@@ -1,5 +1,5 @@
 /// \file
-/// The packed tree built on the device. Internal.
+/// The packed tree built on the device.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace powercell {
 /// PackedTree in device memory. Enqueues without waiting.
 class DeviceTree {
  public:
-  /// Builds the kernels. \param defines  Variant::defines() for the precision and dimension
+  /// Builds the kernels.
+  /// \param defines  Variant::defines() for the precision and dimension
   DeviceTree(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines);
 
   /// Builds the tree over seeds, or over boxes, in curve order.

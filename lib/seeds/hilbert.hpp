@@ -1,5 +1,5 @@
 /// \file
-/// Points in Hilbert order. Internal.
+/// Points in Hilbert order.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,9 @@ namespace powercell {
 std::vector<std::uint32_t> hilbert_order(std::span<const double> points, int dimension, int threads);
 
 /// The places of points along one Hilbert curve through the cube at `low` that contains the box up to `high`:
-/// of 62 or 63 bits, equal for points that share a cell of its grid. \pre the points are in the box; `low`
-/// and `high` have `dimension` finite coordinates unless there are no points
+/// of 62 or 63 bits, equal for points that share a cell of its grid.
+/// \pre the points are in the box; `low` and `high` have `dimension` finite coordinates unless there are no
+/// points
 std::vector<std::uint64_t> hilbert_keys(std::span<const double> points, int dimension,
                                         std::span<const double> low, std::span<const double> high,
                                         int threads);

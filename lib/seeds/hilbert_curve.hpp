@@ -1,5 +1,5 @@
 /// \file
-/// Keys of the Hilbert curve on a grid of 2^bits cells along each axis. Internal.
+/// Keys of the Hilbert curve on a grid of 2^bits cells along each axis.
 #pragma once
 
 #include <array>

@@ -36,7 +36,8 @@ struct SeedFault {
 };
 /// The first seed with a NaN or infinity.
 std::optional<SeedFault> first_not_finite(const SeedsView& seeds, int threads);
-/// \param name  of the seed: its number \throw Error invalid_seed
+/// \param name  of the seed: its number
+/// \throw Error invalid_seed
 [[noreturn]] void refuse_seed(std::uint64_t name, const std::string& why);
 
 /// \throw Error invalid_argument (dimension, sizes)

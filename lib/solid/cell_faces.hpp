@@ -1,5 +1,5 @@
 /// \file
-/// The surface of the part of a cell in a solid, as polygons. Internal.
+/// The surface of the part of a cell in a solid, as polygons.
 #pragma once
 
 #include <array>

@@ -1,6 +1,5 @@
 /// \file
 /// The part of one cell that lies in a solid, from the whole cell and its pieces on the solid's boundary.
-/// Internal.
 #pragma once
 
 #include <array>
@@ -85,7 +84,8 @@ enum class Side : std::int8_t { unknown = -1, outside = 0, inside = 1 };
 /// its own.
 class CellInSolid {
  public:
-  /// Keeps the views until the next call. \param seeds  positions by rank, for the normals of walls
+  /// Keeps the views until the next call.
+  /// \param seeds  positions by rank, for the normals of walls
   void start(std::uint32_t rank, const WholeCell& cell, std::span<const double> positions);
   void add(const BoundaryPiece& piece);
   /// The area of the piece added as number k.
@@ -105,7 +105,8 @@ class CellInSolid {
 
   /// \pre label(), and set_sides() for a uniform cell
   SolidPart part();
-  /// Whether the boundary meets face f. \pre part()
+  /// Whether the boundary meets face f.
+  /// \pre part()
   bool is_cut(std::uint32_t f) const { return walls_[f].cut; }
 
   // What the surface of the part is made of (cell_faces.hpp). Edges of the cell are numbered 3 * vertex +
@@ -127,7 +128,8 @@ class CellInSolid {
   /// The rings of all pieces, one after the other.
   const std::vector<RingVertex>& ring() const { return ring_; }
   std::size_t edge_points() const { return edge_point_.size(); }
-  /// In the order of the ring vertices on them. \pre label()
+  /// In the order of the ring vertices on them.
+  /// \pre label()
   const std::vector<Crossing>& crossings() const { return crossings_; }
   Point vertex(std::uint32_t v) const {
     return {cell_.vertex[3 * std::size_t{v}], cell_.vertex[3 * std::size_t{v} + 1],

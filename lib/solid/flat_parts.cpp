@@ -92,7 +92,8 @@ class Straightened {
   bool flat_ = false;
 };
 
-/// Appends the parts by exact decisions. \return false if that is not possible, and then nothing is appended
+/// Appends the parts by exact decisions.
+/// \return false if that is not possible, and then nothing is appended
 bool append_exact(const Straightened& from, Position position, Polygons& out) {
   std::vector<std::uint32_t> order;
   for (const Loop& loop : from.loops()) order.insert(order.end(), loop.begin(), loop.end());

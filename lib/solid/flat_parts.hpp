@@ -1,5 +1,5 @@
 /// \file
-/// Regions of a plane, given by loops, in convex polygons. Internal.
+/// Regions of a plane, given by loops, in convex polygons.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ struct Polygons {
 /// holes clockwise. Their edges, but for those that two of them have in opposite directions, are the edges of
 /// the loops, each as often. A region that is convex up to rounding, about which straight vertices do not
 /// matter, is one polygon. Where edges of loops cross within rounding, some polygons of the region are
-/// clockwise. \param position  two coordinates per vertex number
+/// clockwise.
+/// \param position  two coordinates per vertex number
 void append_convex_parts(const Polygons& loops, std::span<const std::array<double, 2>> position,
                          Polygons& out);
 

@@ -1,5 +1,5 @@
 /// \file
-/// On which side of the boundary cells lie whose edges it does not cross. Internal.
+/// On which side of the boundary cells lie whose edges it does not cross.
 #pragma once
 
 #include <cstdint>

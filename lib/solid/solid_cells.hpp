@@ -1,5 +1,5 @@
 /// \file
-/// The cells at the boundary of a solid, computed from the boundary alone. Internal.
+/// The cells at the boundary of a solid, computed from the boundary alone.
 #pragma once
 
 #include <array>

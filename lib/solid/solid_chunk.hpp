@@ -1,5 +1,5 @@
 /// \file
-/// The cells of some ranks at the boundary of a solid. Internal.
+/// The cells of some ranks at the boundary of a solid.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@ namespace powercell::solid {
 /// Computes the cells of a chunk of ranks.
 class Chunk {
  public:
-  /// Keeps the references. \param alone  per triangle of the boundary: it lies in one cell as a whole
+  /// Keeps the references.
+  /// \param alone  per triangle of the boundary: it lies in one cell as a whole
   Chunk(const SolidCellsInput& input, const std::vector<bool>& alone, std::span<const std::uint32_t> ranks);
 
   void clip_facets(Clipper& clipper);

@@ -1,5 +1,5 @@
 /// \file
-/// Flat regions in space, given by the edges around them, in convex polygons. Internal.
+/// Flat regions in space, given by the edges around them, in convex polygons.
 #pragma once
 
 #include <span>
@@ -16,8 +16,9 @@ struct DirectedEdge {
 };
 
 /// Convex polygons that tile a region as append_convex_parts() does, by the numbers of their vertices. Edges
-/// in opposite directions cancel. \param edges  as many from each vertex as to it, in any order \param normal
-/// of the plane, to the side from which left is left
+/// in opposite directions cancel.
+/// \param edges  as many from each vertex as to it, in any order
+/// \param normal of the plane, to the side from which left is left
 Polygons tile(std::vector<DirectedEdge> edges, std::span<const Vector3<double>> position,
               const Vector3<double>& normal);
 

@@ -1,5 +1,5 @@
 /// \file
-/// Corners and facets of the domain's regions, and angles between directions and planes. Internal.
+/// Corners and facets of the domain's regions, and angles between directions and planes.
 #pragma once
 
 #include <vector>

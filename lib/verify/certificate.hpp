@@ -1,5 +1,5 @@
 /// \file
-/// The laws that are cheap enough to check on every result (Options::certify). Internal.
+/// The laws that are cheap enough to check on every result (Options::certify).
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ struct Certified {
 
 /// Checks that the measures sum to the domain's, are numbers and not negative, that centroids lie in the
 /// domain's box (unless it is periodic), that both sides of a wall have the same measure, and that the seed
-/// of least power distance at some random points, found by trying all seeds, is not hidden. \throw Error
-/// internal with the law and the seeds concerned
+/// of least power distance at some random points, found by trying all seeds, is not hidden.
+/// \throw Error internal with the law and the seeds concerned
 void require_certificate(const Certified& result);
 
 }  // namespace powercell

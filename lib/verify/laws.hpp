@@ -1,5 +1,5 @@
 /// \file
-/// The laws, one function each. Internal.
+/// The laws, one function each.
 #pragma once
 
 #include <powercell/verify.hpp>
@@ -46,7 +46,8 @@ class Worst {
   std::string detail_;
 };
 
-/// The measures sum to the domain's. \param mesh  of the domain, null where it is not known
+/// The measures sum to the domain's.
+/// \param mesh  of the domain, null where it is not known
 LawCheck check_partition(const Measures& measures, const Cells& cells, const RegionMesh* mesh,
                          const Rounding& rounding);
 

@@ -1,5 +1,5 @@
 /// \file
-/// Tolerance for the difference between the sum of the measures and the domain's. Internal.
+/// Tolerance for the difference between the sum of the measures and the domain's.
 #pragma once
 
 #include "lib/domain/region_mesh.hpp"

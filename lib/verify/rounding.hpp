@@ -1,5 +1,5 @@
 /// \file
-/// How far rounding may move the results of a diagram. Internal.
+/// How far rounding may move the results of a diagram.
 #pragma once
 
 #include <powercell/domain.hpp>

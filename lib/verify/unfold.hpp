@@ -1,5 +1,5 @@
 /// \file
-/// A periodic diagram as one without periods: images of seeds as seeds of their own. Internal.
+/// A periodic diagram as one without periods: images of seeds as seeds of their own.
 #pragma once
 
 #include <powercell/results.hpp>

@@ -12,7 +12,8 @@ namespace powercell::io {
 /// (name, text) of each file, ascending, as they were when the tool was built.
 const std::vector<std::pair<std::string_view, std::string_view>>& view_files();
 
-/// The text of one of them. \throw Error internal if there is none of that name
+/// The text of one of them.
+/// \throw Error internal if there is none of that name
 std::string_view view_file(std::string_view name);
 
 /// main.js and the modules that it needs as one, each after those that it imports: without the lines that

@@ -1,5 +1,5 @@
 /// \file
-/// Parts of a simplex, given by the barycentric coordinates of their corners. Internal.
+/// Parts of a simplex, given by the barycentric coordinates of their corners.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Integrals over all cells and walls, in parallel. Internal.
+/// Integrals over all cells and walls, in parallel.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,5 @@
 /// \file
 /// Checks of values that callers provide: lists of values, and values computed by formulas and functions.
-/// Internal.
 #pragma once
 
 #include <limits>

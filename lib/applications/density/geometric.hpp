@@ -1,5 +1,5 @@
 /// \file
-/// Densities that are integrated over the geometry of cells. Internal.
+/// Densities that are integrated over the geometry of cells.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 /// \file
-/// Integration over a simplex that a jump of the density crosses. Internal.
+/// Integration over a simplex that a jump of the density crosses.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 /// \file
-/// The implementations behind Density. Internal.
+/// The implementations behind Density.
 #pragma once
 
 #include <powercell/density.hpp>

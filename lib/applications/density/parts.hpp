@@ -1,5 +1,5 @@
 /// \file
-/// Subdivision of a domain where a density varies, for random points. Internal.
+/// Subdivision of a domain where a density varies, for random points.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// \file
-/// Cells as integration sees them: convex pieces within the box of the domain. Internal.
+/// Cells as integration sees them: convex pieces within the box of the domain.
 #pragma once
 
 #include <algorithm>

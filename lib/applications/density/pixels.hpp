@@ -1,5 +1,5 @@
 /// \file
-/// The pixels of an image with prefix sums along their rows. Internal.
+/// The pixels of an image with prefix sums along their rows.
 #pragma once
 
 #include <powercell/density.hpp>

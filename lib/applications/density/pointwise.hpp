@@ -1,5 +1,5 @@
 /// \file
-/// Densities that are evaluated at points and integrated by nested rules on simplices. Internal.
+/// Densities that are evaluated at points and integrated by nested rules on simplices.
 #pragma once
 
 #include "lib/applications/density/geometric.hpp"

@@ -1,5 +1,5 @@
 /// \file
-/// Measures and edges of simplices. Internal.
+/// Measures and edges of simplices.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 /// \file
-/// Nested cubature rules on simplices. Internal.
+/// Nested cubature rules on simplices.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Simplices with a density at their corners, and integrals over one. Internal.
+/// Simplices with a density at their corners, and integrals over one.
 #pragma once
 
 #include <algorithm>

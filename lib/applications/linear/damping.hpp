@@ -1,5 +1,5 @@
 /// \file Step control of the damped Newton method for the masses of cells: Kitagawa, Mérigot, Thibert 2019;
-/// (27)-(29) of docs/mathematics.md. Internal.
+/// (27)-(29) of docs/mathematics.md.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// \file
-/// Sparse Cholesky factors of Laplacians that may be singular. Internal.
+/// Sparse Cholesky factors of Laplacians that may be singular.
 #pragma once
 
 #include <Eigen/SparseCholesky>

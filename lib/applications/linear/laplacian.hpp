@@ -1,5 +1,5 @@
 /// \file Laplacians of weighted graphs, L_ij = -c_ij and L_ii = s_i + sum_j c_ij with c, s >= 0, and the
-/// solution of linear systems with them. Internal.
+/// solution of linear systems with them.
 #pragma once
 
 #include <Eigen/SparseCore>

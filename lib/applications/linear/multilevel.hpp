@@ -1,5 +1,4 @@
 /// \file A multilevel preconditioner for Laplacians by smoothed aggregation (Vaněk, Mandel, Brezina 1996).
-/// Internal.
 #pragma once
 
 #include <vector>

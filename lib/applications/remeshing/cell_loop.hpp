@@ -1,5 +1,5 @@
 /// \file
-/// Loops in cells that are not discs. Internal.
+/// Loops in cells that are not discs.
 #pragma once
 
 #include <cstdint>

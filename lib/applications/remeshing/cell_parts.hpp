@@ -1,5 +1,5 @@
 /// \file
-/// The connected components of cells on a surface. Internal.
+/// The connected components of cells on a surface.
 #pragma once
 
 #include <cstdint>

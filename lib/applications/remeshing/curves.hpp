@@ -1,5 +1,5 @@
 /// \file
-/// The kept edges of a surface as curves, and seeds along them. Internal.
+/// The kept edges of a surface as curves, and seeds along them.
 #pragma once
 
 #include <vector>

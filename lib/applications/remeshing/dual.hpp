@@ -1,5 +1,5 @@
 /// \file
-/// The triangle mesh dual to the cells of seeds on a surface, its defects and their repair. Internal.
+/// The triangle mesh dual to the cells of seeds on a surface, its defects and their repair.
 #pragma once
 
 #include <array>

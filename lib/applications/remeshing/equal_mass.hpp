@@ -1,5 +1,5 @@
 /// \file
-/// Seeds whose cells have equal mass: RemeshMethod::transport. Internal.
+/// Seeds whose cells have equal mass: RemeshMethod::transport.
 #pragma once
 
 #include <powercell/device.hpp>

@@ -1,5 +1,5 @@
 /// \file
-/// Farthest-point optimisation (Yan, Guo, Zhang, Wonka 2014; Schlömer, Heck, Deussen 2011). Internal.
+/// Farthest-point optimisation (Yan, Guo, Zhang, Wonka 2014; Schlömer, Heck, Deussen 2011).
 #pragma once
 
 #include <vector>

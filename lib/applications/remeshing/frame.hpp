@@ -1,6 +1,5 @@
 /// \file
 /// Normalised coordinates, in which a surface has a diagonal between 1/2 and 1 and its centre at the origin.
-/// Internal.
 #pragma once
 
 #include <cstdint>

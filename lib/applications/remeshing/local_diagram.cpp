@@ -252,7 +252,8 @@ std::vector<std::uint32_t> LocalDiagram::gainers(const Ring& freed, const std::v
   return result;
 }
 
-/// Clips the ring by all of `seeds` but j. \return false if nothing is left
+/// Clips the ring by all of `seeds` but j.
+/// \return false if nothing is left
 bool LocalDiagram::cut_by_others(Ring& ring, std::uint32_t j, const std::vector<std::uint32_t>& seeds) {
   return std::ranges::all_of(seeds, [&](std::uint32_t k) { return k == j || cut(ring, j, k); });
 }

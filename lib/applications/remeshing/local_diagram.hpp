@@ -1,5 +1,5 @@
 /// \file
-/// The power diagram of seeds restricted to a surface, under insertion and removal of seeds. Internal.
+/// The power diagram of seeds restricted to a surface, under insertion and removal of seeds.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// A priority queue whose entries change in place. Internal.
+/// A priority queue whose entries change in place.
 #pragma once
 
 #include <algorithm>

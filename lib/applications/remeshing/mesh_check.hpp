@@ -1,5 +1,5 @@
 /// \file
-/// Validity of a list of triangles, and whether it is an oriented manifold. Internal.
+/// Validity of a list of triangles, and whether it is an oriented manifold.
 #pragma once
 
 #include <array>

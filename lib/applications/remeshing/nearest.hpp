@@ -1,5 +1,5 @@
 /// \file
-/// Distances from a triangle mesh. Internal.
+/// Distances from a triangle mesh.
 #pragma once
 
 #include <array>

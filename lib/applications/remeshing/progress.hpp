@@ -1,5 +1,5 @@
 /// \file
-/// Progress reports of remeshing, through which the caller may interrupt it. Internal.
+/// Progress reports of remeshing, through which the caller may interrupt it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 /// \file
-/// Improvement of the new mesh: number of vertices, shapes of triangles, distance from the surface. Internal.
+/// Improvement of the new mesh: number of vertices, shapes of triangles, distance from the surface.
 #pragma once
 
 #include "lib/applications/remeshing/progress.hpp"

@@ -1,5 +1,5 @@
 /// \file
-/// The steps of repair(). Internal.
+/// The steps of repair().
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Seeds on a surface with their power diagram: at corners, on kept curves, and free. Internal.
+/// Seeds on a surface with their power diagram: at corners, on kept curves, and free.
 #pragma once
 
 #include <cstdint>

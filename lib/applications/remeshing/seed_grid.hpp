@@ -1,5 +1,5 @@
 /// \file
-/// A search structure for seeds that supports insertion and removal. Internal.
+/// A search structure for seeds that supports insertion and removal.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 /// \file
-/// The sizing field: target edge lengths of the new mesh. Internal.
+/// The sizing field: target edge lengths of the new mesh.
 #pragma once
 
 #include <cstddef>

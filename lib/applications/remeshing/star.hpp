@@ -1,5 +1,5 @@
 /// \file
-/// Costs of the triangles around a vertex of the new mesh when the vertex moves. Internal.
+/// Costs of the triangles around a vertex of the new mesh when the vertex moves.
 #pragma once
 
 #include <algorithm>

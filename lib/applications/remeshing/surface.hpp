@@ -1,6 +1,6 @@
 /// \file
 /// The surface to be remeshed: a triangle mesh that is an oriented manifold, with or without boundary, with
-/// adjacency and kept edges. Internal.
+/// adjacency and kept edges.
 #pragma once
 
 #include <array>

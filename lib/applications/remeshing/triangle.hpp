@@ -1,5 +1,5 @@
 /// \file
-/// Measures of a triangle. Internal.
+/// Measures of a triangle.
 #pragma once
 
 #include "lib/applications/remeshing/vec.hpp"

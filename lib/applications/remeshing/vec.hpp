@@ -1,5 +1,5 @@
 /// \file
-/// Points and directions in space, by their coordinates x, y, z and 0 by default. Internal.
+/// Points and directions in space, by their coordinates x, y, z and 0 by default.
 #pragma once
 
 #include <array>

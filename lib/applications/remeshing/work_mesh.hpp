@@ -1,5 +1,5 @@
 /// \file
-/// The new mesh while it is edited: vertices on the surface; flips, collapses and splits of edges. Internal.
+/// The new mesh while it is edited: vertices on the surface; flips, collapses and splits of edges.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// \file
-/// Parts of cells that are apart from their points. Internal.
+/// Parts of cells that are apart from their points.
 #pragma once
 
 #include <cstddef>

@@ -150,7 +150,8 @@ class Growth {
     });
   }
 
-  /// Adds the region and those connected with it, the nearest first, as far as they fit. \return their area
+  /// Adds the region and those connected with it, the nearest first, as far as they fit.
+  /// \return their area
   double grow(std::uint32_t start, std::uint32_t layer) {
     using Reached = std::pair<double, std::uint32_t>;
     std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;

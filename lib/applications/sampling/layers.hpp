@@ -1,5 +1,5 @@
 /// \file
-/// Surfaces with sides that face each other within the spacing of the points, cut into layers. Internal.
+/// Surfaces with sides that face each other within the spacing of the points, cut into layers.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// The memory of limited-memory BFGS. Internal.
+/// The memory of limited-memory BFGS.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 /// \file
-/// A surface with its layers moved far from each other. Internal.
+/// A surface with its layers moved far from each other.
 #pragma once
 
 #include <powercell/density.hpp>
@@ -18,7 +18,8 @@ class MovedLayers {
   const Domain& domain() const { return moved_; }
   /// The density of the surface, moved with it.
   Density density(const Density& of_surface) const;
-  /// Moves points of the moved surface back. \return the number of points on each layer
+  /// Moves points of the moved surface back.
+  /// \return the number of points on each layer
   std::vector<std::size_t> move_back(std::vector<double>& positions) const;
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// Sides of a surface that face each other. Internal.
+/// Sides of a surface that face each other.
 #pragma once
 
 #include <cstdint>

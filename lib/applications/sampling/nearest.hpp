@@ -1,5 +1,5 @@
 /// \file
-/// Projection of points to cells. Internal.
+/// Projection of points to cells.
 #pragma once
 
 #include <array>

@@ -63,7 +63,8 @@ class Sampler {
         spacing_(
             std::pow(domain.measure() / static_cast<double>(state_.size()), 1.0 / domain.cell_dimension())) {}
 
-  /// Moves the points as far as the mode demands. \return the points, in the domain
+  /// Moves the points as far as the mode demands.
+  /// \return the points, in the domain
   std::vector<double> move() {
     const int most = iterations();
     state_.move_to(start_, tolerance(), most_steps());

@@ -1,5 +1,5 @@
 /// \file
-/// Statistics of Voronoi neighbours. Internal.
+/// Statistics of Voronoi neighbours.
 #pragma once
 
 #include <powercell/point_sets.hpp>

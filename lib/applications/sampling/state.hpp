@@ -1,5 +1,5 @@
 /// \file
-/// Points with their cells of equal mass, for the descent methods of sampling. Internal.
+/// Points with their cells of equal mass, for the descent methods of sampling.
 #pragma once
 
 #include <powercell/sampling.hpp>

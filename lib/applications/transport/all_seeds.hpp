@@ -1,5 +1,5 @@
 /// \file
-/// Sums and extremes over all seeds of a transport, from those of this process. Internal.
+/// Sums and extremes over all seeds of a transport, from those of this process.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,11 @@ class AllSeeds {
   AllSeeds& operator=(const AllSeeds&) = delete;
   virtual ~AllSeeds() = default;
 
-  /// Value by value, over all ranks. \param here  as many on each
+  /// Value by value, over all ranks.
+  /// \param here  as many on each
   virtual std::vector<double> sums(std::vector<double> here) const { return here; }
-  /// Value by value, over all ranks. \param here  as many on each
+  /// Value by value, over all ranks.
+  /// \param here  as many on each
   virtual std::vector<double> greatest(std::vector<double> here) const { return here; }
 
   double sum(double here) const { return sums({here})[0]; }

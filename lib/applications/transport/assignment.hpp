@@ -1,5 +1,5 @@
 /// \file
-/// The linear program that shares the masses of seeds among the parts of a domain. Internal.
+/// The linear program that shares the masses of seeds among the parts of a domain.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Points that stand for the cells of a diagram. Internal.
+/// Points that stand for the cells of a diagram.
 #pragma once
 
 #include <powercell/domain.hpp>

@@ -1,5 +1,5 @@
 /// \file
-/// Cells as simplices, and how much of them an affine function cuts off. Internal.
+/// Cells as simplices, and how much of them an affine function cuts off.
 #pragma once
 
 #include <array>

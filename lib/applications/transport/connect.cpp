@@ -77,7 +77,8 @@ class Raising {
   std::size_t simplices() const { return simplices_.simplex.size(); }
   const Vector& raised() const { return weights_; }
 
-  /// Raises the groups that lack mass, the neediest first. \return whether any was raised
+  /// Raises the groups that lack mass, the neediest first.
+  /// \return whether any was raised
   bool raise_all() {
     std::vector<std::uint32_t> order(need_.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -108,7 +109,8 @@ class Raising {
   }
 
   /// Computes what a group takes from each cell when raised by t, the function being taken as affine in each
-  /// simplex. \return whether that is more than it needs, or than a cell can give
+  /// simplex.
+  /// \return whether that is more than it needs, or than a cell can give
   bool takes_too_much(std::uint32_t group, const std::vector<double>& threshold, double t) {
     taken_.assign(mass_.size(), 0);
     double sum = 0;

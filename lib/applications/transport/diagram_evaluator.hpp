@@ -1,5 +1,5 @@
 /// \file
-/// Evaluation of weights whose seeds are all in one diagram. Internal.
+/// Evaluation of weights whose seeds are all in one diagram.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 /// \file
-/// The connected parts of a domain. Internal.
+/// The connected parts of a domain.
 #pragma once
 
 #include <cstdint>

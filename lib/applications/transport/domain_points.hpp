@@ -1,5 +1,5 @@
 /// \file
-/// Points that stand for the measure of a domain. Internal.
+/// Points that stand for the measure of a domain.
 #pragma once
 
 #include <powercell/domain.hpp>

@@ -1,5 +1,5 @@
 /// \file
-/// Evaluation of weights: the masses of their cells and the derivatives. Internal.
+/// Evaluation of weights: the masses of their cells and the derivatives.
 #pragma once
 
 #include <powercell/transport.hpp>

@@ -1,5 +1,5 @@
 /// \file
-/// Images of the seeds of a periodic domain that are near each other. Internal.
+/// Images of the seeds of a periodic domain that are near each other.
 #pragma once
 
 #include <powercell/domain.hpp>

@@ -20,7 +20,8 @@ bool better_but_for_rounding(const Iterate& at, const Iterate& next, const Vecto
 }
 
 /// Gives mass back to cells that a step has left with less than the share `least`. Where masses differ by
-/// orders, small cells vanish in steps that are good for all others. \return whether no cell has less
+/// orders, small cells vanish in steps that are good for all others.
+/// \return whether no cell has less
 bool feed(SolveContext& context, Iterate& next, const Vector& target, double least) {
   constexpr std::size_t few = 3;
   if (next.empty > std::max(few, context.evaluator().count() / most_starved)) return false;

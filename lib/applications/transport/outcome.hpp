@@ -1,6 +1,5 @@
 /// \file
 /// What a transport is asked for, checked, and what is reported of it, for seeds in one place and on ranks.
-/// Internal.
 #pragma once
 
 #include <span>
@@ -17,7 +16,8 @@ void require_valid(const TransportOptions& options);
 /// \throw Error invalid_argument (sizes; negative, zero or not finite: which seed)
 void require_valid_masses(std::span<const double> masses, std::size_t seeds, std::uint64_t first = 0);
 
-/// The mass of the domain. \throw Error invalid_argument
+/// The mass of the domain.
+/// \throw Error invalid_argument
 double domain_mass(const TransportOptions& options, const Domain& domain);
 
 /// The target masses of the seeds here.
@@ -43,7 +43,8 @@ Iterate solve_and_report(Evaluator& evaluator, const TransportOptions& options, 
                          const Vector& target, const Vector& weights, TransportResult& result);
 
 /// Sets the arrays of n seeds in space of d dimensions, of which those with the indices `kept` are not
-/// merged. \param at  of these
+/// merged.
+/// \param at  of these
 void fill_arrays(const Iterate& at, const std::vector<std::uint32_t>& kept, std::size_t n, std::size_t d,
                  TransportResult& result);
 

@@ -1,5 +1,5 @@
 /// \file
-/// Boxes that an option declares periodic. Internal.
+/// Boxes that an option declares periodic.
 #pragma once
 
 #include <powercell/domain.hpp>

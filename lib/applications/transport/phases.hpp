@@ -1,5 +1,5 @@
 /// \file
-/// The phases of a solve, and the state that they share. Internal.
+/// The phases of a solve, and the state that they share.
 #pragma once
 
 #include <algorithm>
@@ -131,8 +131,8 @@ void try_by_levels(SolveContext& context, Iterate& best);
 void try_on_parts(SolveContext& context, Iterate& best);
 /// Raises the weights of groups of cells that lack mass, where walls connect no cell of the group to others,
 /// and of cells with less than the share `starved` of their mass, until these take what they need from
-/// others, or half of a cell: Newton's method can then pass mass to them. \return false if there is one
-/// group, or none could be raised
+/// others, or half of a cell: Newton's method can then pass mass to them.
+/// \return false if there is one group, or none could be raised
 bool raise_starved(SolveContext& context, Iterate& at, const Vector& target, double starved);
 /// raise_starved() as a step of its own, for cells with hardly any mass.
 bool connect(SolveContext& context, Iterate& at, const Vector& target);

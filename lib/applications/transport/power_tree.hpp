@@ -1,5 +1,5 @@
 /// \file
-/// Least and soft least power distances of a point from a set of seeds. Internal.
+/// Least and soft least power distances of a point from a set of seeds.
 #pragma once
 
 #include <Eigen/Cholesky>

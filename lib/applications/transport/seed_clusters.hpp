@@ -1,5 +1,5 @@
 /// \file
-/// Clusters of seeds that are small beside their distances from all others. Internal.
+/// Clusters of seeds that are small beside their distances from all others.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Levels of clusters of seeds. Internal.
+/// Levels of clusters of seeds.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 /// \file
-/// Weights to start from, by a transport with an entropy. Internal.
+/// Weights to start from, by a transport with an entropy.
 #pragma once
 
 #include <functional>

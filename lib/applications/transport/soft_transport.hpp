@@ -1,5 +1,5 @@
 /// \file
-/// Transport with an entropy between seeds and points of the domain. Internal.
+/// Transport with an entropy between seeds and points of the domain.
 #pragma once
 
 #include <cstddef>

@@ -45,7 +45,8 @@ Weighted thinned(const Weighted& cell, std::size_t count, std::size_t d) {
   return some;
 }
 
-/// Spreads the parts of each cluster over its cell, by a transport with an entropy. \return their weights
+/// Spreads the parts of each cluster over its cell, by a transport with an entropy.
+/// \return their weights
 /// \param weights  of the clusters
 Vector spread_parts(const Domain& domain, const SeedLevel& clusters, const Vector& weights,
                     const SeedLevel& parts, int threads) {

@@ -1,5 +1,5 @@
 /// \file
-/// The state of a TransportSolver between calls. Internal.
+/// The state of a TransportSolver between calls.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,4 @@
 /// \file The inner loop of the neighbour search: tests seeds, stored in columns, against the box of a cell.
-/// Internal.
 #pragma once
 
 #include <cstddef>

@@ -42,7 +42,8 @@ void ConvexDiagram::start_cell(double x, double y) {
 }
 
 /// Clips the cell by one half-plane, (3). If rounding puts more than one run of corners outside, the result
-/// is still a closed ring, with extra edges of negligible length. \return whether anything was cut off
+/// is still a closed ring, with extra edges of negligible length.
+/// \return whether anything was cut off
 bool ConvexDiagram::cut(std::size_t i, std::size_t j, std::span<const double> weights) {
   const double qx = seeds_.x[j] - seeds_.x[i], qy = seeds_.y[j] - seeds_.y[i];
   const double offset = qx * qx + qy * qy + (weights[i] - weights[j]);

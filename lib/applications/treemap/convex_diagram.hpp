@@ -1,5 +1,5 @@
 /// \file The power diagram of a few seeds in a convex polygon, on the host. A group of siblings needs some
-/// twenty of them, which together take less time than one launch on a device. Internal.
+/// twenty of them, which together take less time than one launch on a device.
 #pragma once
 
 #include <cstdint>

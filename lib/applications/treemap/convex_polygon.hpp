@@ -1,5 +1,5 @@
 /// \file
-/// Convex polygons in the plane: moments, validation, containment, coordinates. Internal.
+/// Convex polygons in the plane: moments, validation, containment, coordinates.
 #pragma once
 
 #include <cstdint>

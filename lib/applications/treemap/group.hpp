@@ -1,5 +1,5 @@
 /// \file
-/// One group of siblings in its parent's polygon. Internal.
+/// One group of siblings in its parent's polygon.
 #pragma once
 
 #include <cstdint>

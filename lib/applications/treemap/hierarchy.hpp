@@ -1,5 +1,5 @@
 /// \file
-/// The tree of a treemap: validated, with sums of values, in the order of levels. Internal.
+/// The tree of a treemap: validated, with sums of values, in the order of levels.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Linear systems with the derivatives of the areas with respect to the weights. Internal.
+/// Linear systems with the derivatives of the areas with respect to the weights.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// The damped Newton method for weights that give cells prescribed areas. Internal.
+/// The damped Newton method for weights that give cells prescribed areas.
 #pragma once
 
 #include <limits>

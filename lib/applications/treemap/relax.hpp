@@ -1,5 +1,5 @@
 /// \file
-/// Iteration of a group's seeds to the centroids of cells with the right areas. Internal.
+/// Iteration of a group's seeds to the centroids of cells with the right areas.
 #pragma once
 
 #include "lib/applications/treemap/group.hpp"

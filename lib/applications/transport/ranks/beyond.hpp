@@ -1,5 +1,5 @@
 /// \file
-/// Seeds of other ranks that are neighbours of seeds here. Internal.
+/// Seeds of other ranks that are neighbours of seeds here.
 #pragma once
 
 #include <cstdint>

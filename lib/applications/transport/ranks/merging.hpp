@@ -1,5 +1,5 @@
 /// \file
-/// Seeds of several ranks at the same position. Internal.
+/// Seeds of several ranks at the same position.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ namespace powercell {
 class Merging {
  public:
   /// All ranks call it.
-  /// \param positions  n x d, finite \param numbers, post  kept by reference
+  /// \param positions  n x d, finite
+  /// \param numbers, post kept by reference
   Merging(std::span<const double> positions, std::size_t d, const Numbering& numbers, RankPost& post);
 
   /// Indices of the seeds here that are the first at their position.

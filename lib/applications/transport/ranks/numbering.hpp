@@ -1,5 +1,5 @@
 /// \file
-/// The numbers of seeds on ranks, those of rank 0 first. Internal.
+/// The numbers of seeds on ranks, those of rank 0 first.
 #pragma once
 
 #include <algorithm>

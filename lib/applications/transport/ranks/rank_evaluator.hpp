@@ -1,5 +1,5 @@
 /// \file
-/// Evaluation of weights whose seeds are on several ranks. Internal.
+/// Evaluation of weights whose seeds are on several ranks.
 #pragma once
 
 #include <powercell/distributed.hpp>

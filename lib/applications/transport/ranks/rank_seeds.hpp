@@ -1,5 +1,5 @@
 /// \file
-/// Sums and extremes over the seeds of all ranks. Internal.
+/// Sums and extremes over the seeds of all ranks.
 #pragma once
 
 #include "lib/applications/transport/all_seeds.hpp"
