@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kernels/layout.h"
+#include "lib/base/progress.hpp"
 #include "lib/clip/clipper.hpp"
 #include "lib/clip/in_chunks.hpp"
 
@@ -72,8 +73,7 @@ CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
         const PieceSet& pieces =
             clipper->clip(ranks.subspan(begin, end - begin), std::span(regions).first(end - begin));
         for (std::size_t k = 0; begin + k < end; ++k) cells.add(ranks[begin + k], pieces, k);
-        if (progress && !progress(static_cast<double>(end) / static_cast<double>(ranks.size())))
-          throw Error(ErrorCode::interrupted, "stopped by the progress callback while clipping cells");
+        report_progress(progress, static_cast<double>(end), static_cast<double>(ranks.size()));
       },
       [&] { clipper.reset(); });
   cells.fill_up_to(scene.seeds.size());

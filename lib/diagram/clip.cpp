@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "lib/base/progress.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/diagram/cell_collector.hpp"
 #include "lib/diagram/chunk_pipeline.hpp"
@@ -186,9 +187,7 @@ void Pass::report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total) {
   done_.add(chunk.clipper->take_statistics());
   write_log(LogLevel::detail,
             [&] { return std::to_string(done) + " of " + std::to_string(total) + " pairs clipped"; });
-  const std::function<bool(double)>& progress = setup_.options.progress;
-  if (progress && !progress(static_cast<double>(done) / static_cast<double>(total)))
-    throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
+  report_progress(setup_.options.progress, static_cast<double>(done), static_cast<double>(total));
 }
 
 template <class Body>

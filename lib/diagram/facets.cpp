@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kernels/layout.h"
+#include "lib/base/progress.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/facets.hpp"
 #include "lib/diagram/clip_device.hpp"
@@ -61,8 +62,7 @@ BoundaryWalls clip_facets(const Setup& setup, const Active& active, const Plan& 
           };
           facets.add(chunk(pairs.row), chunk(pairs.region),
                      clipper->clip(chunk(pairs.seed), chunk(pairs.region)));
-          if (progress && !progress(static_cast<double>(end) / static_cast<double>(total)))
-            throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
+          report_progress(progress, static_cast<double>(end), static_cast<double>(total));
         },
         [&] { clipper.reset(); });
   const SeedSet& rows = plan.selected ? plan.selected->seeds : active.seeds();

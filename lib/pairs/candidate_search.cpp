@@ -8,6 +8,7 @@
 #include <powercell/error.hpp>
 #include <tuple>
 
+#include "lib/base/progress.hpp"
 #include "lib/base/threads.hpp"
 
 namespace powercell::pairs {
@@ -314,9 +315,7 @@ RegionLists search_all(const RegionSearchInput& search) {
     workers[static_cast<std::size_t>(w)].run(first, last, found.tasks[t]);
     const double share = static_cast<double>(++done) / static_cast<double>(found.tasks.size());
     // The callback runs on the calling thread only, which is worker 0.
-    if (w == 0 && search.progress && !search.progress(share))
-      throw Error(ErrorCode::interrupted,
-                  "stopped by the progress callback while finding the seeds that meet regions");
+    if (w == 0) report_progress(search.progress, share, 1);
   });
 
   found.list.resize(regions);

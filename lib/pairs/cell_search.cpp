@@ -7,6 +7,7 @@
 #include <limits>
 #include <powercell/error.hpp>
 
+#include "lib/base/progress.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/base/vectors.hpp"
 
@@ -218,9 +219,7 @@ Pairs search_cells(const CellSearchInput& search) {
                                              tasks[t]);
     const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
     // The callback runs on the calling thread only, which is worker 0.
-    if (w == 0 && search.progress && !search.progress(share))
-      throw Error(ErrorCode::interrupted,
-                  "stopped by the progress callback while finding the regions that cells meet");
+    if (w == 0) report_progress(search.progress, share, 1);
   });
   return gather(search, tasks);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernels/layout.h"
+#include "lib/base/progress.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/solid/solid_chunk.hpp"
 
@@ -57,8 +58,7 @@ SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory
         chunk.clip_facets(*clipper);
         chunk.clip_cells(memory.cells, statistics, all.hints);
         chunk.append_to(all);
-        if (input.progress && !input.progress(static_cast<double>(end) / static_cast<double>(ranks.size())))
-          throw Error(ErrorCode::interrupted, "stopped by the progress callback while clipping cells");
+        report_progress(input.progress, static_cast<double>(end), static_cast<double>(ranks.size()));
       },
       [&] {
         clipper.reset();

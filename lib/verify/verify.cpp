@@ -3,6 +3,7 @@
 #include <powercell/verify.hpp>
 
 #include "lib/base/float_environment.hpp"
+#include "lib/base/progress.hpp"
 #include "lib/base/text.hpp"
 #include "lib/verify/laws.hpp"
 #include "lib/verify/unfold.hpp"
@@ -66,8 +67,7 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   const auto add = [&](LawCheck check) {
     constexpr double most_laws = 7;
     checks.push_back(std::move(check));
-    if (options.progress && !options.progress(static_cast<double>(checks.size()) / most_laws))
-      throw Error(ErrorCode::interrupted, "stopped by the progress callback while checking laws");
+    report_progress(options.progress, static_cast<double>(checks.size()), most_laws);
   };
   add(check_partition(measures, cells, &mesh, rounding));
   add(check_statuses(measures, cells, places));
