@@ -10,8 +10,8 @@
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
 #include "lib/collect/selected_walls.hpp"
+#include "lib/diagram/chunk_pipeline.hpp"
 #include "lib/diagram/clip.hpp"
-#include "lib/diagram/clip_device.hpp"
 #include "lib/integrate/moment_sums.hpp"
 
 namespace powercell {

@@ -10,7 +10,6 @@
 #include "lib/clip/in_chunks.hpp"
 #include "lib/diagram/cell_collector.hpp"
 #include "lib/diagram/chunk_pipeline.hpp"
-#include "lib/diagram/clip_device.hpp"
 #include "lib/diagram/stopwatch.hpp"
 
 namespace powercell {

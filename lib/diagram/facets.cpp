@@ -7,7 +7,7 @@
 #include "lib/base/progress.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/facets.hpp"
-#include "lib/diagram/clip_device.hpp"
+#include "lib/diagram/chunk_pipeline.hpp"
 
 namespace powercell {
 namespace {

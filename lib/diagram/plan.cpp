@@ -8,7 +8,7 @@
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
 #include "lib/clip/unrestricted_cells.hpp"
-#include "lib/diagram/clip_device.hpp"
+#include "lib/diagram/chunk_pipeline.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #ifdef POWERCELL_HAS_FLANN

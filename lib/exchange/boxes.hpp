@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/exchange/axes.hpp"
+#include "lib/exchange/cut_test.hpp"
 #include "lib/seeds/packed_tree.hpp"
 
 namespace powercell::exchange {

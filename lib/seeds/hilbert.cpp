@@ -8,7 +8,6 @@
 #include "lib/base/memory.hpp"
 #include "lib/base/radix_sort.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/seeds/hilbert_curve.hpp"
 
 namespace powercell {
 namespace {

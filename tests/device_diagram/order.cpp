@@ -10,7 +10,7 @@
 #include "lib/scene/variant.hpp"
 #include "lib/seeds/device_seeds.hpp"
 #include "lib/seeds/device_tree.hpp"
-#include "lib/seeds/hilbert_curve.hpp"
+#include "lib/seeds/hilbert.hpp"
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/generators.hpp"

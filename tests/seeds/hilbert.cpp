@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "lib/seeds/hilbert_curve.hpp"
 #include "tests/support/generators.hpp"
 
 using namespace powercell;
