@@ -15,7 +15,7 @@
    misses above. The limits are single bits of it. */
 #define VISITS_LIMIT 1024
 #define ONE_MISS 65536u
-#define MISSES_LIMIT (512 * ONE_MISS)
+#define MISSES_LIMIT ((DIMENSION == 2 ? 256 : 512) * ONE_MISS)
 #ifndef LEAVES_TO_HOST
 #define LEAVES_TO_HOST 1
 #endif

@@ -121,23 +121,31 @@ Real VertexSearch<Real>::search(std::uint32_t at, std::size_t level) {
 }
 
 template <class Real>
+bool VertexSearch<Real>::is_clear(const Bound& bound) const {
+  return as_double(bound.least) - 2 * bound.far * error_ > best_;
+}
+
+template <class Real>
 Real VertexSearch<Real>::search_children(std::uint32_t at, std::size_t level) {
   const std::size_t count = scene_.tree->level_offset[level] - scene_.tree->level_offset[level - 1];
   const std::uint32_t first = at * PackedTree::fan,
                       end = std::min(first + PackedTree::fan, static_cast<std::uint32_t>(count));
   std::array<Child, PackedTree::fan> children;  // nearest first
   std::size_t size = 0;
+  Real least = number_of<Real>(largest_real);
   for (std::uint32_t child = first; child < end; ++child) {
     const Child here{bound(number(child, level - 1)), child};
+    if (is_clear(here.bound)) {
+      least = std::min(least, here.bound.least);
+      continue;
+    }
     std::size_t k = size++;
     for (; k > 0 && here.bound.least < children[k - 1].bound.least; --k) children[k] = children[k - 1];
     children[k] = here;
   }
-  Real least = number_of<Real>(largest_real);
   for (std::size_t k = 0; k < size && !ended_early(); ++k) {
     const auto& [bound, child] = children[k];
-    const bool clears = as_double(bound.least) - 2 * bound.far * error_ > best_;
-    least = std::min(least, clears ? bound.least : search(child, level - 1));
+    least = std::min(least, is_clear(bound) ? bound.least : search(child, level - 1));
   }
   return least;
 }

@@ -61,6 +61,8 @@ class VertexSearch {
   std::size_t number(std::uint32_t at, std::size_t level) const {
     return scene_.tree->level_offset[level] + at;
   }
+  /// Whether no seed below the node takes the vertex, or is as near as one that was found.
+  bool is_clear(const Bound& bound) const;
   bool ended_early() const { return !nearest_ && doubtful_.size() > most_; }
   Bound bound(std::size_t number) const;
   Real bound_by_place(const HostNode& node, const Known& known, double squares) const;
