@@ -1,5 +1,5 @@
 // Small computations with known results, which test on each device the operations that the clipping kernels
-// rely on; lib/cl/self_test_results.cpp computes the same on the host. The host defines SELF_TEST_DOUBLE=1
+// rely on; lib/cl/self_test.cpp computes the same on the host. The host defines SELF_TEST_DOUBLE=1
 // where the device has double precision.
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -1,6 +1,6 @@
 /* Computes the place of a grid cell along the Hilbert curve from the entry corner and direction of each level
    (Hamilton and Rau-Chaplin, "Compact Hilbert indices", 2008, section 2); the same curve as
-   lib/seeds/hilbert_curve.hpp. */
+   lib/seeds/hilbert.hpp. */
 #ifndef POWERCELL_SEEDS_HILBERT
 #define POWERCELL_SEEDS_HILBERT
 #include "base/real.cl"

@@ -12,7 +12,7 @@ from ._arrays import Indices, Reals, indices, reals
 from ._copies import device_by_name, restore_diagram
 from ._device import Device, DeviceLike, open_device
 from ._domain import Domain, require_domain
-from ._frames import checked_seeds, checked_values, kept_values, values_of
+from ._frames import checked_seeds, checked_values, checked_weights, kept_values
 from ._names import named_arguments, unknown_result
 from ._options import diagram_options, float_type
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
@@ -166,9 +166,15 @@ class Diagram(Shown):
         self._table, self._by_radii = table, radii is not None
         self._set(points, given)
 
-    def set_weights(self, weights: ArrayLike) -> None:
-        """New weights for the same positions; only what depends on weights is computed again."""
-        checked = reals(values_of(weights, self._table, "weights"), "weights", (len(self),), ", one for each seed")
+    @named_arguments
+    def set_weights(self, weights: Optional[ArrayLike] = None, *, radii: Optional[ArrayLike] = None) -> None:
+        """New weights for the same positions, or radii; only what depends on weights is computed again. As for the class,
+        a column by its name or a series by its labels, where the seeds are from a table.
+        """
+        checked = checked_weights(self._table, weights, radii, len(self))
+        if checked is None:
+            raise ValueError("weights or radii are expected; np.zeros(n) for none")
+        self._by_radii = radii is not None
         self._core.set_weights(checked)
         self._weights = checked
         self._hidden_known = False

@@ -167,22 +167,29 @@ def checked_seeds(
         raise ValueError(f"positions is empty; np.empty((0, {domain.dimension})) is a diagram without seeds")
     points = checked_positions(domain, positions)
     table = positions if is_table(positions) or isinstance(positions, Seeds) else None
+    given = checked_weights(positions, weights, radii, len(points))
+    return points, _own_weights(positions) if given is None else given, table
+
+
+def checked_weights(positions: Any, weights: Optional[Any], radii: Optional[Any], count: int) -> Optional[Reals]:
+    """Weights for the rows of `positions`, which are `count`, from these or radii; None for neither."""
     if radii is not None and weights is not None:
         raise ValueError("weights and radii are given; weights are the squares of radii: pass one of them")
-    checked = checked_values(radii, positions, len(points), "radii")
+    checked = checked_values(radii, positions, count, "radii")
     if checked is None:
-        return points, _weights_of(positions, weights, len(points)), table
+        return checked_values(weights, positions, count, "weights")
     if (checked < 0).any():
         raise ValueError(f"radii: row {int(np.argmax(checked < 0))} is negative")
-    return points, checked * checked, table
+    return checked * checked
 
 
-def _weights_of(positions: Any, weights: Optional[Any], count: int) -> Optional[Reals]:
-    if weights is None and isinstance(positions, Seeds):
+def _own_weights(positions: Any) -> Optional[Reals]:
+    """The weights of what :func:`read_seeds` returned."""
+    if isinstance(positions, Seeds):
         return positions.weights
-    if weights is None and is_table(positions) and not hasattr(positions, "geometry"):
+    if is_table(positions) and not hasattr(positions, "geometry"):
         for key in table_columns(positions):
             if str(key).strip().lower() in _WEIGHTS:
                 word = "radii" if str(key).strip().lower().startswith("r") else "weights"
                 raise ValueError(f"positions has a column {key!r} that is not used; pass {word}={key!r}, or drop it")
-    return checked_values(weights, positions, count, "weights")
+    return None

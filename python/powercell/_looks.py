@@ -239,6 +239,8 @@ def to_html(diagram: Diagram, path: str, columns: Optional[Mapping[str, Sequence
         labels = getattr(diagram._table, "index", None)
         if labels is not None and not np.array_equal(labels, np.arange(len(labels))):
             columns = {str(labels.name or "label"): list(labels), **columns}
+    if not isinstance(columns, Mapping):
+        raise ValueError("columns is a mapping of names to values, such as {'name': table['name']}")
     texts = [[_field(value) for value in np.asarray(columns[key], dtype=object)] for key in columns]
     for key, fields in zip(columns, texts):
         if len(fields) != len(diagram):

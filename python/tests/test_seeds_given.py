@@ -21,6 +21,14 @@ def test_radii_are_squared():
         pc.Diagram(SQUARE, POINTS, radii=np.where(np.arange(40) == 3, -1, radii))
 
 
+def test_new_weights_may_be_radii():
+    diagram = pc.Diagram(SQUARE, POINTS)
+    diagram.set_weights(radii=np.sqrt(WEIGHTS))
+    assert np.array_equal(diagram.mass, pc.Diagram(SQUARE, POINTS, radii=np.sqrt(WEIGHTS)).mass)
+    with pytest.raises(ValueError, match="weights or radii are expected"):
+        diagram.set_weights()
+
+
 def test_most_seeds_hidden_is_warned_of_once():
     radii = np.linspace(0.5, 60, 40)
     diagram = pc.Diagram(SQUARE, POINTS, radii)
