@@ -14,6 +14,7 @@
 #include "apps/io/output.hpp"
 #include "apps/io/picture.hpp"
 #include "apps/io/read_domain.hpp"
+#include "apps/io/read_file.hpp"
 #include "apps/io/write_points.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/option_words.hpp"
