@@ -17,16 +17,20 @@ constexpr std::string_view map_extensions[] = {".kml", ".kmz", ".gml",      ".sh
                                                ".dbf", ".dxf", ".topojson", ".parquet", ".fgb",
                                                ".gpx", ".osm", ".mif",      ".gdb",     ".geoparquet"};
 
+constexpr std::string_view tetgen_extensions[] = {".node", ".ele", ".face", ".smesh"};
+
 using Words = std::vector<std::string_view>;
 
-std::vector<Words> first_lines(std::string_view text, std::size_t count) {
+/// \param comments  whether lines that begin with # count
+std::vector<Words> first_lines(std::string_view text, std::size_t count, bool comments = true) {
   std::vector<Words> lines;
   while (lines.size() < count && !text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end), word;
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!comments && (trimmed(line).empty() || trimmed(line).starts_with('#'))) continue;
     lines.emplace_back();
     while (next_word(line, word)) lines.back().push_back(word);
-    text.remove_prefix(std::min(end + 1, text.size()));
   }
   lines.resize(count);
   return lines;
@@ -40,8 +44,12 @@ bool are_numbers(const Words& words, std::size_t from, std::size_t count) {
                      [&](std::string_view word) { return parse_number(word, value) == Parsed::ok; });
 }
 
+bool is_whole(std::string_view word) {
+  return word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 bool is_count(const Words& words) {
-  return words.size() == 1 && words[0].find_first_not_of("0123456789") == std::string_view::npos;
+  return words.size() == 1 && is_whole(words[0]);
 }
 
 bool begins_with_letter(std::string_view word) {
@@ -65,6 +73,26 @@ bool is_poscar(const std::vector<Words>& lines) {
   });
 }
 
+// Nodes of TetGen or Triangle: the numbers of points, coordinates, attributes and markers, then numbered
+// points.
+bool is_node_file(std::string_view text) {
+  const std::vector<Words> lines = first_lines(text, 3, false);
+  const Words &head = lines[0], &first = lines[1];
+  if (head.size() != 4 || !std::all_of(head.begin(), head.end(), is_whole)) return false;
+  if (head[1] != "2" && head[1] != "3") return false;
+  const std::size_t d = head[1] == "2" ? 2 : 3;
+  if (first.size() <= d || (first[0] != "0" && first[0] != "1") || !are_numbers(first, 1, d)) return false;
+  return head[0] == "1" || (!lines[2].empty() && lines[2][0] == (first[0] == "0" ? "1" : "2"));
+}
+
+// Vertices of Wavefront's OBJ.
+bool is_obj(std::string_view text) {
+  const std::vector<Words> lines = first_lines(text, 20, false);
+  return std::any_of(lines.begin(), lines.end(), [](const Words& words) {
+    return words.size() > 3 && words[0] == "v" && are_numbers(words, 1, 3);
+  });
+}
+
 // The file in a command that the user may copy.
 std::string as_argument(const std::string& name) {
   if (name == "standard input") return "FILE";
@@ -81,6 +109,15 @@ void refuse_foreign_map(const std::string& extension, const std::string& name) {
                         extension, as_argument(name)));
 }
 
+void refuse_foreign_mesh(const std::string& extension, const std::string& name) {
+  if (std::ranges::find(tetgen_extensions, extension) != std::end(tetgen_extensions))
+    fail_file(name,
+              fmt::format(
+                  "meshes of TetGen are not read; meshio converts those of a .node and an .ele file: meshio "
+                  "convert {} mesh.vtu",
+                  as_argument(name)));
+}
+
 void refuse_foreign_seeds(std::string_view text, const std::string& name) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::string begin = lower_case(trimmed(text.substr(0, 64)));
@@ -94,6 +131,21 @@ void refuse_foreign_seeds(std::string_view text, const std::string& name) {
     fail_file(name, fmt::format("is a dump of LAMMPS, not a table; this makes one of a single frame: sed "
                                 "'1,/^ITEM: ATOMS/{{/^ITEM: ATOMS /!d;s///}}' {} >atoms.txt",
                                 as_argument(name)));
+  if (is_node_file(text))
+    fail_file(
+        name,
+        fmt::format(
+            "has the nodes of TetGen or Triangle, not a table; this makes one: awk '!/^#/ && NF {{if (n++) "
+            "for "
+            "(k = 2; k < 2 + d; k++) printf \"%s%s\", $k, k < 1 + d ? \" \" : \"\\n\"; else d = $2}}' {} "
+            ">points.txt",
+            as_argument(name)));
+  if (begin.starts_with("ply\n") || begin.starts_with("ply\r") || begin.starts_with("off") || is_obj(text))
+    fail_file(
+        name,
+        fmt::format("is a mesh or cloud of points, not a table; meshio makes one of its points: python3 -c "
+                    "\"import meshio, numpy; numpy.savetxt('points.txt', meshio.read('{}').points)\"",
+                    name));
   const std::vector<Words> lines = first_lines(text, 9);
   if (is_xyz(lines))
     fail_file(

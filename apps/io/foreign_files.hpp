@@ -11,8 +11,11 @@ namespace powercell::io {
 /// \throw Error invalid_file
 void refuse_foreign_map(const std::string& extension, const std::string& name);
 
-/// Refuses the atoms of LAMMPS, VASP and XYZ files, and documents of XML, by how a text begins.
-/// \throw Error invalid_file
+/// The same of meshes of TetGen.
+void refuse_foreign_mesh(const std::string& extension, const std::string& name);
+
+/// Refuses the atoms of LAMMPS, VASP and XYZ files, nodes of TetGen, meshes, and documents of XML, by how a
+/// text begins. \throw Error invalid_file
 void refuse_foreign_seeds(std::string_view text, const std::string& name);
 
 }  // namespace powercell::io

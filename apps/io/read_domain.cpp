@@ -88,6 +88,7 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
     return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements), {}};
   }
   refuse_foreign_map(extension, name);
+  refuse_foreign_mesh(extension, name);
   fail_file(
       name,
       fmt::format(

@@ -33,7 +33,8 @@ MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const 
   } else {
     if (mesh.face_count() == 0) {
       fail_file(name, solids ? "has no faces besides those of its solids; it is a volume, not a surface"
-                             : "has neither tetrahedra nor faces");
+                             : "has neither tetrahedra nor faces; a cloud of points is no domain, but its "
+                               "points may be seeds");
     }
     arrays.elements = triangulate(mesh, name);
   }

@@ -16,6 +16,13 @@ TEST_CASE("files of other programs are refused with what converts them") {
   CHECK(says(seeds("Si\n1.0\n1 0 0\n0 1 0\n0 0 1\nSi\n1\nDirect\n0 0 0\n"),
              "ase.io.read('a.txt', format='vasp')"));
   CHECK(says(seeds("<?xml version=\"1.0\"?>\n<kml/>\n"), "ogr2ogr -f GeoJSON points.geojson a.txt"));
+  CHECK(says(seeds("# made by hand\n3 2 0 1\n1 0 0 1\n2 1 0 1\n3 0 1 0\n"),
+             "a.txt: has the nodes of TetGen or Triangle"));
+  CHECK(says(seeds("2 3 0 0\n0 0 0 0\n1 1 0 0\n"), "has the nodes of TetGen"));
+  CHECK(seeds("4 3 0 0\n1 0 0 0\n7 1 0 0\n") == "nothing");  // a table
+  CHECK(says(seeds("# cloud\nv 0 0 0\nv 1 0 0\n"), "meshio.read('a.txt').points"));
+  CHECK(says(seeds("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "meshio.read('a.txt').points"));
+  CHECK(says(refusal([&] { refuse_foreign_mesh(".ele", "m.ele"); }), "meshio convert m.ele mesh.vtu"));
   for (const char* extension : {".kml", ".shp", ".gml", ".dxf", ".topojson"})
     CHECK(says(refusal([&] { refuse_foreign_map(extension, "m"); }), "ogr2ogr -f GeoJSON map.geojson m"));
   CHECK(refusal([] { refuse_foreign_map(".txt", "m"); }) == "nothing");
