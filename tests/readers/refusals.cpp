@@ -65,6 +65,11 @@ TEST_CASE("OFF") {
       says(refused("COFF\n2 1 0\n0 0 0 9 9 9 1 0 0 9 9 9\n3 0 1 1\n", ".off"),
            "f.off:2: vertices and faces are not on lines of their own, and colours may have 3 or 4 numbers"));
   CHECK(says(refused("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", ".off"), "neither tetrahedra nor faces"));
+  std::string quadratic = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n";
+  for (int node = 1; node <= 10; ++node)
+    quadratic += std::to_string(node) + " 0 0 " + std::to_string(node) + "\n";
+  quadratic += "$EndNodes\n$Elements\n1\n1 11 2 0 0 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
+  CHECK(says(refused(quadratic.c_str(), ".msh"), "if edges are straight, its corners are enough"));
 }
 
 TEST_CASE("OBJ") {
