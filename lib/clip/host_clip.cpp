@@ -185,11 +185,13 @@ class PieceClipper final : public HostClipper {
     return corners;
   }
 
-  /// Decides about all of many seeds, to know next time which of them tie.
+  /// Decides about all of many seeds, to know next time which of them tie. \param ties  the corners of the
+  /// vertex
   std::optional<std::uint32_t> find_and_learn(const ExactVertex& borders,
-                                              const std::vector<std::uint32_t>& others) {
-    std::vector<std::uint32_t> corners = corners_of(borders), ties = corners;
-    std::optional<std::uint32_t> by_tie;
+                                              const std::vector<std::uint32_t>& others,
+                                              std::vector<std::uint32_t> ties) {
+    const std::size_t corners = ties.size();
+    std::optional<std::uint32_t> nearer, by_tie;
     const bool had_met = exact_.met_tie();
     for (const std::uint32_t other : others) {
       exact_.set_met_tie(false);
@@ -197,19 +199,23 @@ class PieceClipper final : public HostClipper {
       if (exact_.met_tie())
         ties.push_back(other);
       else if (outside)
-        return other;
+        nearer = other;
+      if (nearer) break;
       if (outside) by_tie = other;
     }
+    exact_.set_met_tie(had_met || ties.size() > corners);
+    if (nearer) return nearer;
     std::sort(ties.begin(), ties.end());
     ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
-    exact_.set_met_tie(had_met || ties.size() > corners.size());
-    if (!corners.empty()) tie_sets_.learn(std::move(ties));
+    tie_sets_.learn(std::move(ties));
     return by_tie;
   }
 
   std::optional<std::uint32_t> find_exactly(const ExactVertex& borders,
                                             const std::vector<std::uint32_t>& others) {
-    if (others.size() >= TieSets::least) return find_and_learn(borders, others);
+    if (others.size() >= TieSets::least)
+      if (std::vector<std::uint32_t> corners = corners_of(borders); !corners.empty())
+        return find_and_learn(borders, others, std::move(corners));
     const auto found = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
       return exact_.is_outside(borders, static_cast<std::int32_t>(other));
     });
