@@ -82,12 +82,14 @@ bool is_node_file(std::string_view text) {
   if (head[1] != "2" && head[1] != "3") return false;
   const std::size_t d = head[1] == "2" ? 2 : 3;
   if (first.size() <= d || (first[0] != "0" && first[0] != "1") || !are_numbers(first, 1, d)) return false;
-  return head[0] == "1" || (!lines[2].empty() && lines[2][0] == (first[0] == "0" ? "1" : "2"));
+  return !lines[2].empty() && lines[2][0] == (first[0] == "0" ? "1" : "2");
 }
 
-// Vertices of Wavefront's OBJ.
-bool is_obj(std::string_view text) {
+// Vertices of Wavefront's OBJ, or the first line of OFF or PLY.
+bool is_mesh(std::string_view text) {
   const std::vector<Words> lines = first_lines(text, 20, false);
+  const std::string first = lines[0].size() == 1 ? lower_case(lines[0][0]) : "";
+  if (first == "ply" || first == "off" || first == "coff" || first == "noff") return true;
   return std::any_of(lines.begin(), lines.end(), [](const Words& words) {
     return words.size() > 3 && words[0] == "v" && are_numbers(words, 1, 3);
   });
@@ -140,7 +142,7 @@ void refuse_foreign_seeds(std::string_view text, const std::string& name) {
             "(k = 2; k < 2 + d; k++) printf \"%s%s\", $k, k < 1 + d ? \" \" : \"\\n\"; else d = $2}}' {} "
             ">points.txt",
             as_argument(name)));
-  if (begin.starts_with("ply\n") || begin.starts_with("ply\r") || begin.starts_with("off") || is_obj(text))
+  if (is_mesh(text))
     fail_file(
         name,
         fmt::format("is a mesh or cloud of points, not a table; meshio makes one of its points: python3 -c "

@@ -96,6 +96,7 @@ void add_gmsh_element(const GmshElement& kind, const std::uint32_t* nodes, std::
       mesh.tetrahedra.insert(mesh.tetrahedra.end(), nodes, nodes + 4);
     } else if (mesh.other_solid.empty()) {
       mesh.other_solid = fmt::format("a {} (element {})", kind.name, tag);
+      mesh.other_is_quadratic = kind.nodes == 10;
     }
   }
 }

@@ -23,8 +23,7 @@ MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const 
   const bool solids = !mesh.tetrahedra.empty() || !mesh.other_solid.empty();
   arrays.kind = kind.value_or(solids ? DomainKind::volume : DomainKind::surface);
   if (arrays.kind == DomainKind::volume) {
-    if (mesh.other_solid.find("quadratic tetrahedron") != std::string::npos ||
-        mesh.other_solid.find("10-node tetrahedron") != std::string::npos)
+    if (mesh.other_is_quadratic)
       fail_file(name, fmt::format("has {}; if edges are straight, its corners are enough, and meshio keeps "
                                   "these alone: python3 -c "
                                   "\"import meshio; m = meshio.read('{}'); meshio.Mesh(m.points, [('tetra', "

@@ -22,6 +22,7 @@ struct MeshFile {
   std::vector<std::uint32_t> tetrahedra;    ///< nt x 4, indices from 0
   /// The first solid that is not a tetrahedron, e.g. "a hexahedron in line 12"; empty if none.
   std::string other_solid;
+  bool other_is_quadratic = false;  ///< it is a tetrahedron of 10 nodes, the corners first
 
   std::size_t vertex_count() const { return vertices.size() / 3; }
   std::size_t face_count() const { return face_offset.size() - 1; }

@@ -11,7 +11,8 @@ namespace {
 
 // VTK's numbers of kinds of cells (vtkCellType.h).
 constexpr std::int64_t vtk_triangle = 5, vtk_strip = 6, vtk_polygon = 7, vtk_pixel = 8, vtk_quad = 9,
-                       vtk_tetra = 10, vtk_quadratic_triangle = 22, vtk_quadratic_quad = 23;
+                       vtk_tetra = 10, vtk_quadratic_triangle = 22, vtk_quadratic_quad = 23,
+                       vtk_quadratic_tetrahedron = 24;
 // Nothing, points and lines.
 constexpr std::int64_t vtk_skipped[] = {0, 1, 2, 3, 4, 21};
 
@@ -25,7 +26,7 @@ constexpr Solid other_solids[] = {{11, "voxel"},
                                   {14, "pyramid"},
                                   {15, "prism"},
                                   {16, "prism"},
-                                  {24, "quadratic tetrahedron"},
+                                  {vtk_quadratic_tetrahedron, "quadratic tetrahedron"},
                                   {42, "polyhedron"}};
 
 void expect_corners(std::size_t cell, std::size_t got, std::size_t due, const char* kind,
@@ -75,7 +76,9 @@ void add_cell(std::size_t cell, std::int64_t type, const std::vector<std::uint32
   const auto solid = std::ranges::find(other_solids, type, &Solid::type);
   if (solid == std::end(other_solids))
     fail_file(name, fmt::format("cell {} (from 0) is of VTK's type {}, which is not read", cell, type));
-  if (mesh.other_solid.empty()) mesh.other_solid = fmt::format("a {} (cell {}, from 0)", solid->name, cell);
+  if (!mesh.other_solid.empty()) return;
+  mesh.other_solid = fmt::format("a {} (cell {}, from 0)", solid->name, cell);
+  mesh.other_is_quadratic = type == vtk_quadratic_tetrahedron;
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ TEST_CASE("files of other programs are refused with what converts them") {
              "a.txt: has the nodes of TetGen or Triangle"));
   CHECK(says(seeds("2 3 0 0\n0 0 0 0\n1 1 0 0\n"), "has the nodes of TetGen"));
   CHECK(seeds("4 3 0 0\n1 0 0 0\n7 1 0 0\n") == "nothing");  // a table
+  CHECK(seeds("1 3 0 0\n1 2 3 4\n") == "nothing");
+  CHECK(!says(seeds("offset,x,y,z\n1,0,0,0\n"), "meshio"));
   CHECK(says(seeds("# cloud\nv 0 0 0\nv 1 0 0\n"), "meshio.read('a.txt').points"));
   CHECK(says(seeds("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "meshio.read('a.txt').points"));
   CHECK(says(refusal([&] { refuse_foreign_mesh(".ele", "m.ele"); }), "meshio convert m.ele mesh.vtu"));
