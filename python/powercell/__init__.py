@@ -50,7 +50,7 @@ from ._device_results import (  # noqa: E402
     DeviceStatus,
     DeviceUncertain,
 )
-from ._diagram import Diagram, prepare, regular_triangulation  # noqa: E402
+from ._diagram import Diagram, prepare  # noqa: E402
 from ._distributed import compute_distributed  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
@@ -66,6 +66,7 @@ from ._sampling import sample  # noqa: E402
 from ._saved import SavedDiagram  # noqa: E402
 from ._seeds import Seeds, read_seeds  # noqa: E402
 from ._transport import TransportSolver, transport  # noqa: E402
+from ._triangulation import regular_triangulation  # noqa: E402
 from ._treemap import Treemap, treemap  # noqa: E402
 
 for _kind in (member for member in vars(_core).values() if isinstance(member, type)):

@@ -1,4 +1,4 @@
-"""Power diagrams and regular triangulations."""
+"""Power diagrams."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Indices, Reals, indices, reals
+from ._arrays import Indices, Reals, indices
 from ._copies import device_by_name, restore_diagram
 from ._device import Device, DeviceLike, open_device
 from ._domain import Domain, require_domain
-from ._frames import checked_seeds, checked_values, checked_weights, kept_values
+from ._frames import checked_seeds, checked_weights, kept_values
 from ._names import named_arguments, unknown_result
 from ._options import diagram_options, float_type
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
@@ -163,7 +163,9 @@ class Diagram(Shown):
                     "pass weights, or np.zeros(n) for none"
                 )
             given = kept_values(self._weights, self._table, table)
-        self._table, self._by_radii = table, radii is not None
+        else:
+            self._by_radii = radii is not None
+        self._table = table
         self._set(points, given)
 
     @named_arguments
@@ -417,42 +419,3 @@ def prepare(
     options = diagram_options(precision, neighbors, threads=threads)
     with fraction_bar(progress, "preparing") as report:
         _core.prepare(open_device(device), domain._core, options, report)
-
-
-@named_arguments
-def regular_triangulation(
-    positions: ArrayLike,
-    weights: Optional[ArrayLike] = None,
-    *,
-    device: DeviceLike = None,
-    precision: str = "auto",
-    threads: int = 0,
-    progress: Progress = None,
-) -> NDArray[np.int32]:
-    """The regular triangulation (weighted Delaunay) of seeds in the plane or in space.
-
-    Parameters
-    ----------
-    positions : (n, 2) or (n, 3) array_like
-    weights : (n,) array_like, optional
-
-    Returns
-    -------
-    (m, 3) or (m, 4) int32
-        Positively oriented simplices, rows of seed indices. Seeds in none are hidden or duplicates.
-
-    Examples
-    --------
-    >>> import powercell as pc
-    >>> pc.regular_triangulation([[0, 0], [1, 0], [0, 1]]).tolist()
-    [[0, 1, 2]]
-    """
-    points = reals(positions, "positions", (None, None))
-    if points.shape[1] not in (2, 3):
-        raise ValueError(f"positions has the shape {points.shape}; (n, 2) or (n, 3) is expected")
-    given = checked_values(weights, positions, len(points), "weights")
-    options = diagram_options(precision=precision, threads=threads)
-    dual: Any
-    with fraction_bar(progress, "triangulation") as report:
-        dual = _core.regular_triangulation(open_device(device), points, given, options, report)
-    return dual.simplices  # type: ignore[no-any-return]

@@ -114,10 +114,11 @@ class Domain:
             Accept longitude and latitude, and take them as a plane.
         """
         own = crs_of(shape)
+        in_degrees = is_geographic(crs if crs is not None else own)
         if own is not None and crs is not None and own != crs:
             raise ValueError(f"shape is in {own.to_string()}, but crs is {crs!r}; use shape.to_crs({crs!r})")
         crs = crs if crs is not None else own
-        if is_geographic(crs) and not degrees:
+        if in_degrees and not degrees:
             raise ValueError(
                 "shape is in degrees, whose areas and distances mean little: project it first, e.g. "
                 "shape.to_crs(shape.estimate_utm_crs()), or pass degrees=True to compute with degrees"

@@ -27,15 +27,15 @@ def table_columns(table: Any) -> dict[str, Any]:
     return {key: table[key] for key in getattr(table, "columns", []) if key != geometry}
 
 
-def _points_of_geometry(points: Any, dimension: int) -> ArrayLike:
+def _points_of_geometry(points: Any, dimension: int, name: str) -> ArrayLike:
     """The coordinates of points of Shapely."""
     kinds = [getattr(point, "geom_type", type(point).__name__) for point in points]
     wrong = [k for k, point in enumerate(points) if kinds[k] != "Point" or point.is_empty]
     if wrong:
         what = f"a {kinds[wrong[0]]}" if kinds[wrong[0]] != "Point" else "empty"
-        raise ValueError(f"positions: row {wrong[0]} is {what}; points are expected")
+        raise ValueError(f"{name}: row {wrong[0]} is {what}; points are expected")
     if dimension == 3 and not all(point.has_z for point in points):
-        raise ValueError("positions are points in the plane, and the domain is in space")
+        raise ValueError(f"{name} are points in the plane, and the domain is in space")
     return np.array([[getattr(point, axis) for axis in "xyz"[:dimension]] for point in points], dtype=np.float64)
 
 
@@ -51,7 +51,7 @@ def _numbers(column: Any, name: str, key: Any) -> Any:
     raise ValueError(f"{name}: the column {key!r} has the type {column.dtype}; numbers are expected")
 
 
-def _points_of_frame(table: Any, domain: Domain) -> ArrayLike:
+def _points_of_frame(table: Any, domain: Domain, name: str) -> ArrayLike:
     """Columns x, y, z, or what maps call them, by their names; where none has such a name, in their order."""
     axes: list[list[Any]] = [[] for _ in range(3)]
     for key in table.columns:
@@ -63,18 +63,18 @@ def _points_of_frame(table: Any, domain: Domain) -> ArrayLike:
         keys = [axes[k][0] for k in range(d)]
         in_degrees = any(str(key).strip().lower().startswith(("lon", "lat", "lng")) for key in keys)
         if in_degrees and domain.crs is not None and not is_geographic(domain.crs):
-            raise ValueError(f"positions has the columns {keys}, in degrees, but the domain is in {domain.crs}")
-        return np.column_stack([_numbers(table[key], "positions", key) for key in keys])
+            raise ValueError(f"{name} has the columns {keys}, in degrees, but the domain is in {domain.crs}")
+        return np.column_stack([_numbers(table[key], name, key) for key in keys])
     if any(axes) or len(table.columns) != d:
         expected = "x, y" if d == 2 else "x, y, z"
-        raise ValueError(f"positions has the columns {list(table.columns)}; {expected} are expected")
-    return np.column_stack([_numbers(table[key], "positions", key) for key in table.columns])
+        raise ValueError(f"{name} has the columns {list(table.columns)}; {expected} are expected")
+    return np.column_stack([_numbers(table[key], name, key) for key in table.columns])
 
 
-def _points_of(positions: Any, domain: Domain) -> ArrayLike:
+def _points_of(positions: Any, domain: Domain, name: str) -> ArrayLike:
     """The points of a table or of geometries; other positions as they are."""
     if isinstance(positions, str):
-        raise ValueError(f"positions is {positions!r}; read_seeds() reads files")
+        raise ValueError(f"{name} is {positions!r}; read_seeds() reads files")
     if isinstance(positions, Seeds):
         return positions.positions
     geometry = getattr(positions, "geometry", None)
@@ -82,16 +82,18 @@ def _points_of(positions: Any, domain: Domain) -> ArrayLike:
         require_same_crs(positions, domain.crs)
         if domain.dimension == 2 and (geometry.geom_type == "Point").all() and not geometry.is_empty.any():
             return np.column_stack([geometry.x, geometry.y])
-        return _points_of_geometry(list(geometry), domain.dimension)
+        return _points_of_geometry(list(geometry), domain.dimension, name)
     if isinstance(getattr(positions, "geom_type", None), str) and not hasattr(positions, "geoms"):
-        raise ValueError(f"positions is a single {positions.geom_type}; a list of points is expected")
+        raise ValueError(f"{name} is a single {positions.geom_type}; a list of points is expected")
     if hasattr(positions, "columns"):
-        return _points_of_frame(positions, domain)
+        return _points_of_frame(positions, domain, name)
     points = list(positions.geoms) if hasattr(positions, "geoms") else positions
     is_array = getattr(points, "dtype", None) == object or hasattr(points, "geom_type")  # the latter of GeoPandas
     if not (isinstance(points, (list, tuple)) or is_array) or getattr(points, "ndim", 1) == 0 or len(points) == 0:
         return points
-    return _points_of_geometry(list(points), domain.dimension) if hasattr(points[0], "geom_type") else points
+    if not hasattr(points[0], "geom_type"):
+        return points
+    return _points_of_geometry(list(points), domain.dimension, name)
 
 
 def values_by_label(values: Any, positions: Any, name: str) -> Any:
@@ -113,18 +115,18 @@ def values_of(values: Any, positions: Any, name: str) -> Any:
     return _numbers(found, name, values) if isinstance(values, str) else found
 
 
-def _in_order_of(values: Any, positions: Any, name: str) -> Any:
+def _in_order_of(values: Any, positions: Any, name: str, others: str = "positions") -> Any:
     labels, rows = values.index, positions.index
     if not (labels.is_unique and rows.is_unique and len(labels) == len(rows) and rows.isin(labels).all()):
-        raise ValueError(f"{name} has other labels than positions; pass {name}.to_numpy() if they are in the same order")
-    return values.reindex(rows) if hasattr(values, "reindex") else values.loc[rows]
+        raise ValueError(f"{name} has other labels than {others}; pass {name}.to_numpy() if they are in the same order")
+    return values.reindex(rows)
 
 
 def in_order_of(moved: Any, before: Any) -> Any:
     """New positions of the same seeds, in the order in which they came in, where both have labels."""
     if not is_table(moved) or not is_table(before) or moved.index.equals(before.index):
         return moved
-    return _in_order_of(moved, before, "positions")
+    return _in_order_of(moved, before, "positions", "before")
 
 
 def kept_values(values: Reals, before: Any, now: Any) -> Reals:
@@ -148,7 +150,7 @@ def checked_positions(domain: Domain, positions: Any, name: str = "positions", c
     """Positions from an array, a table or geometries; `count` of them, where it is given."""
     require_domain(domain)
     d = domain.dimension
-    given = _points_of(positions, domain)
+    given = _points_of(positions, domain, name)
     return reals(given, name, (count, d), f", since the domain is {'in the plane' if d == 2 else 'in space'}")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from dataclasses import dataclass, field
-from typing import Any, Optional, Union
+from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -45,20 +45,26 @@ def _column(fields: list[str]) -> np.ndarray:
         return np.array(fields)
 
 
-def _read(path: str, dimension: int, weight: str, radius: str) -> Any:
+_Columns = Tuple[Sequence[str], str, str]  # of positions, weight and radius
+
+
+def _read(path: str, dimension: int, columns: _Columns) -> Any:
     try:
-        return _core.read_seeds(path, dimension, weight, radius)
+        return _core.read_seeds(path, dimension, [str(name) for name in columns[0]], *columns[1:])
     except Error as error:  # in the words of the tool
         text = re.sub(r"--(weight|radius)-column( (?=['\"]))?", lambda m: f"{m[1]}_column" + ("=" if m[2] else ""), str(error))
+        text = re.sub(r"--x-column((,| and) --[yz]-column)+|--x-column( 2)? and so on|--[xyz]-column", "position_columns", text)
         raise Error(text, error.code) from None
 
 
-def _find_dimension(path: str, weight: str, radius: str) -> int:
+def _find_dimension(path: str, columns: _Columns) -> int:
+    if columns[0]:
+        return len(columns[0])
     try:
-        table = _read(path, 2, weight, radius)
+        table = _read(path, 2, columns)
     except Error as in_plane:
         try:
-            _read(path, 3, weight, radius)
+            _read(path, 3, columns)
         except Error:
             raise in_plane from None
         return 3
@@ -79,6 +85,7 @@ def read_seeds(
     domain: Optional[Domain] = None,
     *,
     dimension: Optional[int] = None,
+    position_columns: Sequence[str] = (),
     weight_column: str = "",
     radius_column: str = "",
 ) -> Seeds:
@@ -91,16 +98,18 @@ def read_seeds(
         Says how many coordinates a seed has.
     dimension : {2, 3}, optional
         The same. Without both it is found from the columns, where these leave no doubt.
+    position_columns : sequence of str
+        Two or three columns by their names, or numbers from 1, for x, y (and z). Default: found by their names.
     weight_column, radius_column : str
-        A column by its name or number from 1; weights are the squares of radii.
+        Likewise; weights are the squares of radii.
     """
-    name = os.fspath(path)
+    name, chosen = os.fspath(path), (position_columns, weight_column, radius_column)
     if dimension is None:
-        found = domain.dimension if domain is not None else _find_dimension(name, weight_column, radius_column)
+        found = domain.dimension if domain is not None else _find_dimension(name, chosen)
     elif dimension in (2, 3):
         found = dimension
     else:
         raise ValueError(f"dimension is {dimension}; 2 or 3 is expected")
-    table = _read(name, found, weight_column, radius_column)
+    table = _read(name, found, chosen)
     columns = {key: _column(table.column(k)) for k, key in enumerate(table.names)}
     return Seeds(table.positions, table.weights, columns, table.crs or None, table.taken)

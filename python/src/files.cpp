@@ -47,13 +47,14 @@ void bind_files(nb::module_& m) {
         for (std::size_t row = 0; row < t.text.rows(); ++row) fields.emplace_back(t.text.field(row, column));
         return fields;
       });
-  m.def("read_seeds",
-        [](const std::string& path, int dimension, const std::string& weight, const std::string& radius) {
-          io::ColumnChoice choice;
-          choice.weight = weight;
-          choice.radius = radius;
-          return without_lock([&] { return io::read_seed_file(path, dimension, choice); });
-        });
+  m.def("read_seeds", [](const std::string& path, int dimension, const std::vector<std::string>& position,
+                         const std::string& weight, const std::string& radius) {
+    io::ColumnChoice choice;
+    for (std::size_t k = 0; k < position.size() && k < 3; ++k) choice.position[k] = position[k];
+    choice.weight = weight;
+    choice.radius = radius;
+    return without_lock([&] { return io::read_seed_file(path, dimension, choice); });
+  });
 }
 
 }  // namespace powercell::python

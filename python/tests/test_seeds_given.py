@@ -198,6 +198,11 @@ def test_labels_are_followed_in_loops():
     first = diagram.mass
     diagram.set_seeds(table[::-1])
     assert np.array_equal(diagram.weights, WEIGHTS[::-1]) and diagram.mass == pytest.approx(first[::-1])
+    moved = pc.TransportSolver(SQUARE, table)
+    with pytest.raises(ValueError, match="positions has other labels than before; pass positions.to_numpy"):
+        moved.move_seeds(table.rename(index=lambda name: name + "x"))
+    with pytest.raises(ValueError, match="points: row 0 is a str; points are expected|points is 'x'"):
+        pc.sample(SQUARE, "x")
     with pytest.raises(ValueError, match="other labels than before; pass weights"):
         diagram.set_seeds(table.rename(index=lambda name: name + "x"))
     solver = pc.TransportSolver(SQUARE, table, weights + 1, rescale=True)
@@ -231,6 +236,17 @@ def test_what_read_seeds_returns_are_seeds(tmp_path):
         assert "--" not in str(caught.value) and "3 coordinates" not in str(caught.value)
 
 
+def test_columns_of_positions_may_be_chosen(tmp_path):
+    path = tmp_path / "seeds.csv"
+    path.write_text("id,lon,lat,X_m,Y_m\n" + "".join(f"{k},1,2,{x},{y}\n" for k, (x, y) in enumerate(POINTS)))
+    seeds = pc.read_seeds(path, position_columns=("X_m", "Y_m"))
+    assert seeds.positions == pytest.approx(POINTS)
+    path.write_text("x,X,y\n1,2,3\n")
+    with pytest.raises(pc.Error, match="choose with position_columns"):
+        pc.read_seeds(path, dimension=2)
+    assert pc.read_seeds(path, position_columns=("2", "3")).positions.tolist() == [[2, 3]]
+
+
 def test_geometries_that_are_no_points_are_named():
     shapely = pytest.importorskip("shapely")
     geopandas = pytest.importorskip("geopandas")
@@ -252,6 +268,8 @@ def test_degrees_are_refused():
     box = shapely.box(0, 0, 1, 1)
     with pytest.raises(ValueError, match="shape is in degrees"):
         pc.Domain.polygon(box, crs=4326)
+    with pytest.raises(ValueError, match="names no coordinate system"):
+        pc.Domain.polygon(geopandas.GeoSeries([box], crs=3035), crs="banana")
     with pytest.raises(ValueError, match="crs is 'banana', which names no coordinate system"):
         pc.Domain.polygon(box, crs="banana")
     with pytest.raises(ValueError, match=r"shape is in EPSG:3035, but crs is 25832; use shape\.to_crs\(25832\)"):
