@@ -72,15 +72,15 @@ def polygons(diagram: Diagram) -> list[Any]:
     return result
 
 
-def _images_seen(domain: Any, rings: list[np.ndarray]) -> list[np.ndarray]:
-    """How a cell must be moved for its images that reach into the domain's box; 0 alone without periods."""
+def _images_seen(domain: Any, rings: list[np.ndarray], low: np.ndarray, high: np.ndarray) -> list[np.ndarray]:
+    """How a cell must be moved for its images that reach into the view from `low` to `high`; 0 alone without periods."""
     if not rings:
         return []
     if not domain.is_periodic:
         return [np.zeros(2)]
     corners = np.vstack(rings)
-    low, high = (np.array(end) for end in domain.bounds)
-    moves = [a * domain.periods[0] + b * domain.periods[1] for a in (-1, 0, 1) for b in (-1, 0, 1)]
+    steps = range(-3, 4)  # the box around a lattice is wider than its periods
+    moves = [a * domain.periods[0] + b * domain.periods[1] for a in steps for b in steps]
     unique = np.unique(np.array(moves), axis=0)
     return [by for by in unique if (corners.max(0) + by > low).all() and (corners.min(0) + by < high).all()]
 
@@ -106,9 +106,12 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
     paths, patches = package("matplotlib.path"), package("matplotlib.collections")
     if ax is None:
         _, ax = pyplot.subplots()
+    low, high = (np.array(end) for end in diagram.domain.bounds)
+    pad = 0.02 * (high - low).max()
+    low, high = low - pad, high + pad
     compound, cell_of = [], []
     for cell, rings in enumerate(_rings(diagram)):
-        for by in _images_seen(diagram.domain, rings):
+        for by in _images_seen(diagram.domain, rings, low, high):
             closed = [paths.Path(np.vstack([ring, ring[:1]]) + by, closed=True) for ring in rings]
             compound.append(paths.Path.make_compound_path(*closed))
             cell_of.append(cell)
@@ -120,9 +123,7 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
         cells = patches.PathCollection(compound, facecolor="0.92" if color is None else color, **look)
     ax.add_collection(cells)
     ax.plot(*diagram.positions.T, ".", color="0.2", markersize=2, zorder=3)
-    (low_x, low_y), (high_x, high_y) = diagram.domain.bounds
-    pad = 0.02 * max(high_x - low_x, high_y - low_y)
-    ax.set(xlim=(low_x - pad, high_x + pad), ylim=(low_y - pad, high_y + pad), aspect="equal")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     return ax
 
 
