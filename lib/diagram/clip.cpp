@@ -18,9 +18,9 @@ namespace {
 
 /// Fewer pairs are clipped faster by one device than by several.
 constexpr std::uint64_t least_shared_pairs = 16384;
-/// Images that a seed mostly has at most. Where few cells reach beyond the margin, all images of their seeds
-/// are made at once: to clip these cells several times costs more.
-constexpr std::size_t most_images = 26;
+/// Where at most one cell of so many reaches beyond the margin, all images of their seeds are made at once:
+/// to clip these cells, which are large, in several rounds costs more than 26 images of each.
+constexpr std::size_t seeds_per_cell_beyond = 8;
 /// Of a margin that must be widened, against rounding.
 constexpr double more_than_needed = 1.001;
 
@@ -203,7 +203,7 @@ void Pass::timed(const Candidates& candidates, Timings& timings, const Body& bod
 void Pass::clip_beyond(Timings& timings) {
   // A cell that lacks an image reaches farther than it will.
   const Images& images = *active_.images();
-  const double margin = collector_.beyond() * most_images < images.own
+  const double margin = collector_.beyond() * seeds_per_cell_beyond < images.own
                             ? complete_margin(*setup_.period())
                             : std::min(more_than_needed * collector_.margin(), 2 * images.margin);
   if (!active_.widen(margin, collector_.clearance())) return collector_.prove_again();
