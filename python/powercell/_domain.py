@@ -271,7 +271,9 @@ class Domain:
     def __repr__(self) -> str:
         word = "area" if self.cell_dimension == 2 else "volume"
         periodic = "periodic " if self.is_periodic else ""
-        return f"<powercell.Domain: {periodic}{self.kind} of {word} {self.measure:.6g}>"
+        low, high = ([f"{x:.6g}" for x in corner] for corner in self.bounds)
+        within = " x ".join(f"[{a}, {b}]" for a, b in zip(low, high))
+        return f"<powercell.Domain: {periodic}{self.kind} of {word} {self.measure:.6g} in {within}>"
 
 
 def require_domain(domain: Any) -> None:

@@ -42,6 +42,13 @@ class Expression {
       refuse("it has " + std::to_string(count) + " values; decimals are written with a point, as in 1.5");
   }
 
+  /// \throw Error invalid_argument if it depends on z, which is 0 everywhere
+  void require_planar() {
+    guarded([&] {
+      if (parser_.GetUsedVar().contains("z")) refuse("z is 0 everywhere in this domain; use x and y");
+    });
+  }
+
   void evaluate(std::span<const Point> x, std::span<double> values) {
     guarded([&] {
       for (std::size_t k = 0; k < x.size(); ++k) {
@@ -74,8 +81,17 @@ class Expression {
     try {
       body();
     } catch (const mu::Parser::exception_type& error) {
-      refuse(error.GetMsg());
+      refuse(why(error));
     }
+  }
+
+  std::string why(const mu::Parser::exception_type& error) const {
+    if (text_.find("**") != std::string::npos) return "powers are written with ^, as in x^2";
+    if (error.GetCode() != mu::ecUNASSIGNABLE_TOKEN) return error.GetMsg();
+    std::string functions;
+    for (const auto& [name, function] : parser_.GetFunDef())
+      if (name.front() != '_') functions += (functions.empty() ? "" : ", ") + name;
+    return "'" + error.GetToken() + "' is unknown; there are x, y, z, pi, e and the functions " + functions;
   }
 
   static constexpr std::size_t longest = 300;  // bytes of the formula and of a message that are quoted
@@ -86,7 +102,9 @@ class Expression {
 
 class FormulaSource : public CheckedSource {
  public:
-  FormulaSource(const Domain& domain, const std::string& text) : CheckedSource(domain), expression_(text) {}
+  FormulaSource(const Domain& domain, const std::string& text) : CheckedSource(domain), expression_(text) {
+    if (domain.dimension() == 2) expression_.require_planar();
+  }
 
  private:
   void evaluate_unchecked(std::span<const Point> x, std::span<double> values) override {

@@ -44,6 +44,17 @@ TEST_CASE("an invalid formula is refused when it is made") {
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula("1", tolerance); }), "tolerance"));
 }
 
+TEST_CASE("a formula's error says what could be written instead") {
+  const auto said = [](const char* text) {
+    return message(ErrorCode::invalid_argument, [&] { (void)Density::formula(text).total(unit_box(2)); });
+  };
+  CHECK(has(said("x**2"), "powers are written with ^, as in x^2"));
+  CHECK(has(said("1 + q"), "'q' is unknown; there are x, y, z, pi, e"));
+  CHECK(has(said("np.exp(x)"), "'np' is unknown"));
+  CHECK(has(said("1 + z"), "z is 0 everywhere in this domain; use x and y"));
+  CHECK(Density::formula("1 + z").total(unit_box(3)) == doctest::Approx(1.5));
+}
+
 TEST_CASE("a message about a formula is one short printable line, whatever the formula") {
   for (const std::string& text : {std::string("8\x1b[31m\n}"), std::string(100000, 'a')}) {
     const std::string said = message(ErrorCode::invalid_argument, [&] { Density::formula(text); });
