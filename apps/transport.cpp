@@ -172,11 +172,16 @@ std::string result_line(const TransportReport& report, const TransportResult& re
   if (integrals)
     why += fmt::format("{}{}, not {:.1e}", why.empty() ? "" : "; ",
                        integrals_are_right_to(result.quadrature_error), result.tolerance);
-  throw Error(
-      ErrorCode::not_converged,
-      fmt::format("not converged: after {} {}{}; {}", counted(result.newton_steps(), "step"), why,
-                  report.files.empty() ? "" : "; the files hold the best weights found",
-                  integrals ? remedy_of_integrals : "try --max-steps, --tolerance or --precision double"));
+  std::string remedy = "try --max-steps, --tolerance or --precision double";
+  if (integrals)
+    remedy = remedy_of_integrals;
+  else if (result.error < result.rounding_error)
+    remedy = fmt::format(
+        "weights in double precision allow no better where seeds lie so close: --tolerance {:.1g}",
+        2 * result.error);
+  throw Error(ErrorCode::not_converged,
+              fmt::format("not converged: after {} {}{}; {}", counted(result.newton_steps(), "step"), why,
+                          report.files.empty() ? "" : "; the files hold the best weights found", remedy));
 }
 
 int run(const TransportArguments& arguments) {

@@ -163,7 +163,7 @@ def transport(
     positions: ArrayLike,
     masses: Optional[ArrayLike] = None,
     density: Density = None,
-    tolerance: float = 1e-6,
+    tolerance: float = 0.0,
     *,
     progress: Progress = None,
     **options: Any,

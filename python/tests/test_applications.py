@@ -193,3 +193,15 @@ def test_numbers_of_treemaps():
         assert all(np.abs(layout.seeds[k] - layout.polygon(k).mean(axis=0)).max() < 0.1 for k in range(1, 41))
     with pytest.raises(ValueError, match="large_group is -1"):
         pc.treemap({"a": 1}, large_group=-1)
+
+
+def test_transport_has_the_default_tolerance_of_the_solver():
+    # Seeds 1e-9 apart: weights in double precision meet the masses to some 1e-5 only.
+    rng = np.random.default_rng(3)
+    seeds = np.concatenate([0.4 + 1e-8 * rng.random((200, 2)), rng.random((100, 2))])
+    domain = pc.Domain.box([0, 0], [1, 1])
+    result = pc.transport(domain, seeds)
+    assert result.converged and result.tolerance == 1e-6
+    assert result.converged == pc.TransportSolver(domain, seeds).solve().converged
+    given = pc.transport(domain, seeds, tolerance=1e-9)
+    assert not given.converged and given.error < given.rounding_error

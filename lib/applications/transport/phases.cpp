@@ -31,6 +31,12 @@ bool limited_by_quadrature(const SolveContext& context, const Iterate& at) {
   return quadrature_error >= context.tolerance() && at.error(context.target()) < quadrature_error;
 }
 
+/// Whether the masses are met within the rounding of the weights: further steps follow noise.
+bool limited_by_rounding(SolveContext& context, const Iterate& at) {
+  return context.evaluator().spread() == 0 &&
+         at.error(context.target()) < at.rounding_error(context.target());
+}
+
 }  // namespace
 
 SolveContext::SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance,
@@ -122,7 +128,7 @@ PhaseEnd solve_current_density(SolveContext& context, Iterate& at) {
   }
   if (at.empty > 0) end = ascend(context, at, true);
   if (end != PhaseEnd::converged && at.empty == 0) end = newton_to_target();
-  if (at.empty == 0 && limited_by_quadrature(context, at)) return end;
+  if (at.empty == 0 && (limited_by_quadrature(context, at) || limited_by_rounding(context, at))) return end;
   if (end == PhaseEnd::stalled && at.empty == 0) end = ramp(context, at);
   if (end == PhaseEnd::stalled || end == PhaseEnd::disconnected) end = ascend(context, at, false);
   return end;

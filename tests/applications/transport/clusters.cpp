@@ -66,6 +66,22 @@ TEST_CASE("seeds in a small part of the domain, alone and beside even ones") {
       }
 }
 
+TEST_CASE("a tolerance that rounded weights cannot meet ends the solve soon") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const int d : {2, 3}) {
+    SeedArray seeds = empty_seeds(d);
+    add_cluster(seeds, random_place(d, random), 1e-8, 200, random);
+    add_cluster(seeds, random_place(d, random), 1e-3, 100, random);
+    TransportOptions options = transport_options();
+    options.tolerance = 1e-9;
+    const TransportResult found = transport(transport_device(), unit_box(d), seeds.view(), {}, options);
+    CHECK(!found.converged);
+    CHECK(found.error < found.rounding_error);
+    CHECK(found.diagrams <= most_diagrams);
+  }
+}
+
 TEST_CASE("clusters in a periodic box, also across its faces") {
   INFO(replay_hint());
   Random random(test_seed());
