@@ -105,7 +105,7 @@ bool run(const Device& device, const Work& work, std::size_t count) {
       name(work.distribution).c_str(), name(work.weights).c_str(), seeds.size(), count, r.rounds,
       static_cast<unsigned long long>(r.fetched), static_cast<unsigned long long>(r.neighbors),
       static_cast<double>(r.fetched) / static_cast<double>(r.neighbors), static_cast<double>(r.clipped) / n,
-      static_cast<double>(r.outlines) / n, static_cast<double>(r.requests) / n,
+      static_cast<double>(r.coarse_trees) / n, static_cast<double>(r.requests) / n,
       static_cast<double>(r.replies) / n, static_cast<double>(r.ending) / n, alone, spent, spent / alone,
       difference.seeds, difference.measure);
   std::fflush(stdout);
@@ -129,8 +129,8 @@ int run_all(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const Device device = Device::choose();
   std::printf("%-8s %-2s %9s %6s %6s %9s %9s %6s %8s %8s %8s %8s %8s %8s %8s %6s %6s %9s\n", "seeds", "", "n",
-              "shards", "rounds", "fetched", "walls", "ratio", "clipped", "outlines", "requests", "replies",
-              "ending", "alone s", "shards s", "ratio", "differ", "measure");
+              "shards", "rounds", "fetched", "walls", "ratio", "clipped", "coarse trees", "requests",
+              "replies", "ending", "alone s", "shards s", "ratio", "differ", "measure");
   bool good = true;
   for (const Distribution distribution : {Distribution::white, Distribution::blue, Distribution::cluster})
     for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {

@@ -89,7 +89,7 @@
 #define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 #define OUTPUT_REACH 16   /* the distance of the farthest vertex from the seed */
 #define OUTPUT_FACETS 32  /* the facets of the region among the walls, as with geometry */
-#define OUTPUT_SIDES 64   /* measures of walls, left in the cell (kernels/diagram/clip_pairs.cl) */
+#define OUTPUT_SIDES 64   /* measures of walls, left in the cell (kernels/device_diagram/clip_pairs.cl) */
 
 /* Which faces of a piece are written: a sum of these, or all. */
 #define FACES_WALLS 1
@@ -127,7 +127,7 @@ typedef struct {
 /* The kind of a border that is a wall (powercell::Border::Kind). */
 #define BORDER_WALL 0
 
-/* A density in a region, affine: DENSITY_SIZE reals (kernels/diagram/density.cl). */
+/* A density in a region, affine: DENSITY_SIZE reals (kernels/device_diagram/density.cl). */
 #define DENSITY_VALUE 0    /* at its first corner; NaN where it is not known */
 #define DENSITY_GRADIENT 1 /* 3 */
 #define DENSITY_SIZE 4

@@ -6,8 +6,8 @@ set -eu
 cd "$(dirname "$0")/.."
 
 # Stages of the core, each above those before it.
-core="base report cl primitives domain regions seeds periodic scene neighbors clip pairs solid integrate collect verify diagram exchange out_of_core"
-kernels="base cell seeds periodic neighbors clip pairs integrate diagram"
+core="base report cl primitives domain regions seeds periodic scene cell neighbors clip pairs solid integrate collect verify diagram device_diagram exchange out_of_core"
+kernels="base cell seeds periodic neighbors clip pairs integrate device_diagram"
 applications="linear density transport sampling remeshing treemap c_api"
 
 bad=0
@@ -48,7 +48,7 @@ complain lib/applications "lib/($inner|device_rates)/" "the applications are bui
 for folder in $applications; do
   [ "$folder" = c_api ] || complain "lib/applications/$folder" "lib/c_api/" "the applications are below the C interface"
 done
-complain lib/device_rates "lib/(primitives|domain|regions|seeds|scene|neighbors|clip|pairs|solid|integrate|collect|verify|diagram|exchange|out_of_core)/" \
+complain lib/device_rates "lib/(primitives|domain|regions|seeds|scene|cell|neighbors|clip|pairs|solid|integrate|collect|verify|diagram|device_diagram|exchange|out_of_core)/" \
   "lib/device_rates may include lib/cl only"
 complain lib/c_api "lib/($inner|device_rates|applications)/" "the C interface is built on the public headers and lib/base"
 complain apps "lib/" "the tool is built on the public headers"

@@ -22,7 +22,7 @@ rm -rf "$1"
 mkdir -p "$1/bin" "$1/lib"
 folder=$(cd "$1" && pwd)
 
-for name in cl primitives seeds neighbors pairs clip collect diagram device_diagram laws oracles verify solid periodic update \
+for name in cl primitives seeds neighbors pairs clip collect diagram device_diagram laws oracles verify solid periodic cell \
   exact determinism device_rates; do
   [ -x "$build/tests/test_$name" ] || { echo "device_bundle.sh: $build/tests/test_$name is not built" >&2; exit 1; }
   cp "$build/tests/test_$name" "$folder/bin/"

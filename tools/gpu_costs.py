@@ -26,7 +26,7 @@ COSTS = ("registers", "private", "spill", "waves", "code")
 # Programs that clip, of which the table has the first capacity of each kind of space and the large one in 3D, or the first
 # in 3D alone. The others share their code. Of programs without cells it has what runs in 3D.
 MAIN = "clip/by_tree.cl"
-BESIDE = ("clip/by_region.cl", "diagram/clip_pairs.cl", "diagram/clip_density.cl")
+BESIDE = ("clip/by_region.cl", "device_diagram/clip_pairs.cl", "device_diagram/clip_density.cl")
 # What --check compiles of the table, in some seconds each.
 CHECKED = {
     MAIN: ("float 2D", "float 3D", "double 3D"),

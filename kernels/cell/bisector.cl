@@ -1,7 +1,7 @@
 /* Cutting a cell by the bisector of two seeds, in coordinates relative to the cell's seed
    (docs/mathematics.md (3): kept is 2 q.y <= |q|^2 + w_i - w_j). */
-#ifndef POWERCELL_CLIP_BISECTOR
-#define POWERCELL_CLIP_BISECTOR
+#ifndef POWERCELL_CELL_BISECTOR
+#define POWERCELL_CELL_BISECTOR
 #include "cell/cell.cl"
 
 /* What lies behind a face with border `old` that lies in the bisector of `border` (docs/mathematics.md,

@@ -23,8 +23,8 @@
    Distances from planes are divided by |q|_1, which makes them lower bounds. (84) takes the least of gap,
    closest_gap and clear; (82) compares moved + drift with gap, and with closest_gap or else vertex by vertex. */
 /* clang-format on */
-#ifndef POWERCELL_CLIP_CERTAIN
-#define POWERCELL_CLIP_CERTAIN
+#ifndef POWERCELL_CELL_CERTAIN
+#define POWERCELL_CELL_CERTAIN
 #include "cell/vertices.cl"
 
 /* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the

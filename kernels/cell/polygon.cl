@@ -1,7 +1,7 @@
 /* A convex polygon in two or three coordinates as a ring of vertices, cut by half-spaces. Edge v goes from
    vertex v to vertex next[v] and has what lies behind it in border[v]. */
-#ifndef POWERCELL_CLIP_POLYGON
-#define POWERCELL_CLIP_POLYGON
+#ifndef POWERCELL_CELL_POLYGON
+#define POWERCELL_CELL_POLYGON
 #include "cell/certain.cl"
 
 /* Capacity of the list of removed edges. */

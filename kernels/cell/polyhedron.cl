@@ -1,8 +1,8 @@
 /* A convex polyhedron as a 3-regular graph, cut by half-spaces. Seen from outside, the neighbours
    next[v][0..2] of vertex v go counter-clockwise; face[v][k] lies between next[v][k] and next[v][k+1], and
    its loop goes from v on to next[v][k]. */
-#ifndef POWERCELL_CLIP_POLYHEDRON
-#define POWERCELL_CLIP_POLYHEDRON
+#ifndef POWERCELL_CELL_POLYHEDRON
+#define POWERCELL_CELL_POLYHEDRON
 #include "cell/certain.cl"
 
 typedef struct {

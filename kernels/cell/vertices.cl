@@ -1,7 +1,7 @@
 /* The vertices of a cell, in blocks of LANES, relative to the cell's seed: what polygons and polyhedra
    have in common. A slot is a vertex or free; free slots of the blocks in use hold 0. */
-#ifndef POWERCELL_CLIP_VERTICES
-#define POWERCELL_CLIP_VERTICES
+#ifndef POWERCELL_CELL_VERTICES
+#define POWERCELL_CELL_VERTICES
 #include "base/lanes.cl"
 #include "base/point.cl"
 #include "base/regions.cl"

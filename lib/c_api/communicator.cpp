@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/base/rank_post.hpp"
+#include "lib/base/rank_mailbox.hpp"
 #include "lib/c_api/options.hpp"
 
 namespace powercell::c_api {
@@ -43,8 +43,8 @@ std::vector<Communicator::Message> CallerCommunicator::exchange(std::vector<Mess
 }
 
 void throw_on_all(Communicator& communicator) {
-  RankPost post(communicator);
-  post.together([]() -> int { throw; });
+  RankMailbox mailbox(communicator);
+  mailbox.together([]() -> int { throw; });
   std::terminate();  // not reached: that throws
 }
 

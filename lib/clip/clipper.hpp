@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/clip/host_clip.hpp"
-#include "lib/clip/pieces.hpp"
+#include "lib/cell/host_clip.hpp"
+#include "lib/cell/pieces.hpp"
 #include "lib/clip/row_reader.hpp"
 #include "lib/neighbors/candidates.hpp"
 

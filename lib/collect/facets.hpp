@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/clip/pieces.hpp"
+#include "lib/cell/pieces.hpp"
 #include "lib/domain/region_mesh.hpp"
 
 namespace powercell {

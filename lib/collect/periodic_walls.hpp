@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/base/memory.hpp"
-#include "lib/clip/pieces.hpp"
+#include "lib/cell/pieces.hpp"
 #include "lib/periodic/images.hpp"
 
 namespace powercell {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/clip/pieces.hpp"
+#include "lib/cell/pieces.hpp"
 #include "lib/periodic/images.hpp"
 
 namespace powercell {

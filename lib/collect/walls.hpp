@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/base/memory.hpp"
-#include "lib/clip/pieces.hpp"
+#include "lib/cell/pieces.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {

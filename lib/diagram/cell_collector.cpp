@@ -18,7 +18,7 @@ constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
 
 }  // namespace
 
-CellCollector::CellCollector(const Setup& setup, Active& active, Plan& plan, Wanted want,
+CellCollector::CellCollector(const DiagramSetup& setup, ActiveSeeds& active, ClipPlan& plan, Wanted want,
                              Workspace& workspace)
     : setup_(setup),
       active_(active),

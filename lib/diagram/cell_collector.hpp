@@ -20,7 +20,8 @@ class CellCollector {
  public:
   /// Keeps the references.
   /// \param workspace  its memory of walls is taken, and given back by finish()
-  CellCollector(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace);
+  CellCollector(const DiagramSetup& setup, ActiveSeeds& active, ClipPlan& plan, Wanted want,
+                Workspace& workspace);
 
   /// What the kernels are to write.
   int outputs() const;
@@ -73,9 +74,9 @@ class CellCollector {
   std::vector<CoincidentWall> coincident_walls(const std::vector<SeedStatus>& status) const;
   void keep_wall_memory();
 
-  const Setup& setup_;
-  Active& active_;
-  Plan& plan_;
+  const DiagramSetup& setup_;
+  ActiveSeeds& active_;
+  ClipPlan& plan_;
   const Wanted want_;
   Workspace& workspace_;
   MomentSums measures_;

@@ -12,7 +12,7 @@
 
 namespace powercell {
 
-ChunkPipeline::ChunkPipeline(std::deque<ClipDevice>& devices, const Plan& plan, Sharing& sharing,
+ChunkPipeline::ChunkPipeline(std::deque<ClipDevice>& devices, const ClipPlan& plan, Sharing& sharing,
                              std::size_t chunks)
     : devices_(devices), plan_(plan), sharing_(sharing) {
   for (ClipDevice& device : devices_) {
@@ -221,8 +221,8 @@ Scene ClipDevice::scene() const {
 void ClipDevice::prepare() {
   if (candidates_) return;
   use([&] {
-    const Setup& setup = work_.setup;
-    const Active& active = work_.active;
+    const DiagramSetup& setup = work_.setup;
+    const ActiveSeeds& active = work_.active;
     if (!kept_.scene)
       kept_.scene = std::make_unique<DeviceScene>(device_.context(), setup.on_device.mesh(), setup.float32());
     if (kept_.scene->uploads != active.uploads()) {
@@ -264,7 +264,7 @@ void ClipDevice::keep_memory() {
   }
 }
 
-void ClipChunk::set_pairs(const Plan& plan, std::uint64_t first, std::uint64_t last) {
+void ClipChunk::set_pairs(const ClipPlan& plan, std::uint64_t first, std::uint64_t last) {
   const std::vector<std::uint64_t>& offset = plan.pairs.offset;
   const auto row_of = [&](std::uint64_t pair) {
     return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() -
@@ -281,7 +281,7 @@ void ClipChunk::set_pairs(const Plan& plan, std::uint64_t first, std::uint64_t l
   pair_region = std::span(plan.pairs.region).subspan(begin, end - begin);
 }
 
-void ClipChunk::set_seeds(const Plan& plan) {
+void ClipChunk::set_seeds(const ClipPlan& plan) {
   pair_seed = pair_row;
   if (!plan.selected) return;
   selected_seed.resize(pair_row.size());
@@ -297,7 +297,7 @@ constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
 
 }  // namespace
 
-std::uint64_t chunk_pairs(const Setup& setup, const Device& device, std::uint64_t total) {
+std::uint64_t chunk_pairs(const DiagramSetup& setup, const Device& device, std::uint64_t total) {
   if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
   const std::uint64_t most =
       std::min(device.context()->settings().chunk_pairs, cl::quirks_of(device.info()).launch_limit);

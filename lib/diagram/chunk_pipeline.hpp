@@ -19,8 +19,7 @@
 
 #include "lib/cl/quirks.hpp"
 #include "lib/clip/clipper.hpp"
-#include "lib/diagram/device_errors.hpp"
-#include "lib/diagram/plan.hpp"
+#include "lib/diagram/clip_plan.hpp"
 #include "lib/diagram/setup.hpp"
 
 namespace powercell {
@@ -35,15 +34,15 @@ struct ClipChunk {
   std::vector<std::uint32_t> for_host;  ///< once the device has clipped the chunk: the pairs to finish here
 
   /// Makes this the pairs [first, last) of a plan, which must not be empty.
-  void set_pairs(const Plan& plan, std::uint64_t first, std::uint64_t last);
+  void set_pairs(const ClipPlan& plan, std::uint64_t first, std::uint64_t last);
   /// Sets pair_seed from pair_row.
-  void set_seeds(const Plan& plan);
+  void set_seeds(const ClipPlan& plan);
 };
 
 /// What clipping is the same on all devices.
 struct ClipWork {
-  const Setup& setup;
-  const Active& active;
+  const DiagramSetup& setup;
+  const ActiveSeeds& active;
   int outputs = 0;  ///< of clippers
   ClipOptions options = {};
 };
@@ -98,7 +97,7 @@ class ClipDevice {
 inline constexpr std::uint64_t least_chunk_pairs = 1024;
 
 /// The number of pairs of a chunk on one device, of `total`; 0 pairs stand for very many.
-std::uint64_t chunk_pairs(const Setup& setup, const Device& device, std::uint64_t total);
+std::uint64_t chunk_pairs(const DiagramSetup& setup, const Device& device, std::uint64_t total);
 
 /// Hands the items [0, total) out in ascending ranges that all take about the same time, and shorter ones
 /// towards the end, so that all devices end together. Not thread-safe.
@@ -149,7 +148,7 @@ class ChunkPipeline {
 
   /// Devices, plan and sharing must outlive this.
   /// \param chunks  that a device has at a time: 1 or 2
-  ChunkPipeline(std::deque<ClipDevice>& devices, const Plan& plan, Sharing& sharing, std::size_t chunks);
+  ChunkPipeline(std::deque<ClipDevice>& devices, const ClipPlan& plan, Sharing& sharing, std::size_t chunks);
   ChunkPipeline(const ChunkPipeline&) = delete;
   ChunkPipeline& operator=(const ChunkPipeline&) = delete;
   /// Waits until the devices have ended what they do now.
@@ -192,7 +191,7 @@ class ChunkPipeline {
   void clip(std::size_t device, Slot& slot);
 
   std::deque<ClipDevice>& devices_;
-  const Plan& plan_;
+  const ClipPlan& plan_;
   Sharing& sharing_;
   std::deque<Lane> lanes_;
   std::mutex mutex_;  // guards what follows, slots, lanes and the sharing

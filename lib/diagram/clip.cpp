@@ -24,9 +24,9 @@ constexpr std::size_t seeds_per_cell_beyond = 8;
 /// Of a margin that must be widened, against rounding.
 constexpr double more_than_needed = 1.001;
 
-class Pass {
+class ClipPass {
  public:
-  Pass(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace)
+  ClipPass(const DiagramSetup& setup, ActiveSeeds& active, ClipPlan& plan, Wanted want, Workspace& workspace)
       : setup_(setup),
         active_(active),
         plan_(plan),
@@ -72,9 +72,9 @@ class Pass {
   /// To be called for each chunk, when `done` pairs of `total` are.
   void report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total);
 
-  const Setup& setup_;
-  Active& active_;
-  Plan& plan_;
+  const DiagramSetup& setup_;
+  ActiveSeeds& active_;
+  ClipPlan& plan_;
   const Wanted want_;
   Workspace& workspace_;
   CellCollector collector_;
@@ -83,12 +83,12 @@ class Pass {
   double clip_seconds_ = 0;
 };
 
-void Pass::complete(ClipChunk& chunk) {
+void ClipPass::complete(ClipChunk& chunk) {
   chunk.clipper->share_host_scene(host_scene_);
   collector_.add(chunk, chunk.clipper->finish_on_host(chunk.for_host));
 }
 
-void Pass::clip_all(Timings& timings) {
+void ClipPass::clip_all(Timings& timings) {
   done_ = plan_.solid_statistics;
   const std::uint64_t total = plan_.pairs.region.size();
   const bool shared = is_shared(total);
@@ -117,21 +117,21 @@ void Pass::clip_all(Timings& timings) {
   for (ClipDevice& device : devices) device.keep_memory();
 }
 
-bool Pass::is_shared(std::uint64_t total) const {
+bool ClipPass::is_shared(std::uint64_t total) const {
   if (setup_.members.size() == 1) return false;
   return total >= least_shared_pairs ||
          (setup_.options.chunk_pairs > 0 && setup_.options.chunk_pairs < total);
 }
 
-ClipWork Pass::work(std::uint64_t total, bool overlapping) const {
+ClipWork ClipPass::work(std::uint64_t total, bool overlapping) const {
   return {
       setup_, active_, collector_.outputs(),
       ClipOptions{
           .exact = setup_.exact(), .threads = setup_.threads, .pairs = total, .read_moments = overlapping}};
 }
 
-std::uint64_t Pass::clip_in_turn(ClipDevice& device, ClipChunk& chunk, std::uint64_t begin, std::uint64_t end,
-                                 std::uint64_t size) {
+std::uint64_t ClipPass::clip_in_turn(ClipDevice& device, ClipChunk& chunk, std::uint64_t begin,
+                                     std::uint64_t end, std::uint64_t size) {
   return in_chunks(
       end - begin, {size, least_chunk_pairs, "pairs"},
       [&](std::uint64_t first, std::uint64_t last) {
@@ -143,7 +143,7 @@ std::uint64_t Pass::clip_in_turn(ClipDevice& device, ClipChunk& chunk, std::uint
       [&] { device.free_memory(chunk); });
 }
 
-bool Pass::clip_in_pipeline(std::deque<ClipDevice>& devices, Sharing sharing, std::size_t chunks) {
+bool ClipPass::clip_in_pipeline(std::deque<ClipDevice>& devices, Sharing sharing, std::size_t chunks) {
   std::vector<std::uint64_t> pairs(devices.size());
   const std::uint64_t total = plan_.pairs.region.size();
   {
@@ -168,7 +168,7 @@ bool Pass::clip_in_pipeline(std::deque<ClipDevice>& devices, Sharing sharing, st
   return true;
 }
 
-void Pass::keep_shares(const Sharing& sharing, const std::vector<std::uint64_t>& pairs) {
+void ClipPass::keep_shares(const Sharing& sharing, const std::vector<std::uint64_t>& pairs) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (pairs[k] > 0) workspace_.devices[k].speed = sharing.speed(k);
     workspace_.devices[k].pairs = pairs[k];
@@ -182,7 +182,7 @@ void Pass::keep_shares(const Sharing& sharing, const std::vector<std::uint64_t>&
   });
 }
 
-void Pass::report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total) {
+void ClipPass::report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total) {
   done_.add(chunk.clipper->take_statistics());
   write_log(LogLevel::detail,
             [&] { return std::to_string(done) + " of " + std::to_string(total) + " pairs clipped"; });
@@ -190,7 +190,7 @@ void Pass::report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total) {
 }
 
 template <class Body>
-void Pass::timed(const Candidates& candidates, Timings& timings, const Body& body) {
+void ClipPass::timed(const Candidates& candidates, Timings& timings, const Body& body) {
   const double list_seconds_before = candidates.host_seconds(), collected_before = collector_.seconds();
   const Stopwatch watch(setup_.device);
   body();
@@ -200,7 +200,7 @@ void Pass::timed(const Candidates& candidates, Timings& timings, const Body& bod
   clip_seconds_ += std::max(0.0, watch.seconds() - (collector_.seconds() - collected_before) - list_seconds);
 }
 
-void Pass::clip_beyond(Timings& timings) {
+void ClipPass::clip_beyond(Timings& timings) {
   // A cell that lacks an image reaches farther than it will.
   const Images& images = *active_.images();
   const double margin = collector_.beyond() * seeds_per_cell_beyond < images.own
@@ -240,9 +240,9 @@ void Pass::clip_beyond(Timings& timings) {
 
 }  // namespace
 
-Clipped clip(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace,
-             Timings& timings) {
-  return Pass(setup, active, plan, want, workspace).run(timings);
+Clipped clip(const DiagramSetup& setup, ActiveSeeds& active, ClipPlan& plan, Wanted want,
+             Workspace& workspace, Timings& timings) {
+  return ClipPass(setup, active, plan, want, workspace).run(timings);
 }
 
 }  // namespace powercell

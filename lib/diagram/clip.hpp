@@ -8,7 +8,7 @@
 
 #include "lib/collect/join_solid.hpp"
 #include "lib/collect/walls.hpp"
-#include "lib/diagram/plan.hpp"
+#include "lib/diagram/clip_plan.hpp"
 
 namespace powercell {
 
@@ -44,7 +44,7 @@ struct Clipped {
 /// \param plan  gets its candidates copied to the further devices of a group
 /// \param timings  sets `clip`, `collect` and the counts; adds the time of lists to `neighbors`
 /// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
-Clipped clip(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace,
-             Timings& timings);
+Clipped clip(const DiagramSetup& setup, ActiveSeeds& active, ClipPlan& plan, Wanted want,
+             Workspace& workspace, Timings& timings);
 
 }  // namespace powercell

@@ -26,7 +26,7 @@ std::vector<bool> regions_at_boundary(const RegionMesh& mesh) {
   return at_boundary;
 }
 
-FacetPairs pairs_at_boundary(const RegionMesh& mesh, const Plan& plan) {
+FacetPairs pairs_at_boundary(const RegionMesh& mesh, const ClipPlan& plan) {
   const std::vector<bool> at_boundary = regions_at_boundary(mesh);
   FacetPairs pairs;
   for (std::uint32_t row = 0; row + 1 < plan.pairs.offset.size(); ++row)
@@ -41,7 +41,7 @@ FacetPairs pairs_at_boundary(const RegionMesh& mesh, const Plan& plan) {
 
 }  // namespace
 
-BoundaryWalls clip_facets(const Setup& setup, const Active& active, const Plan& plan,
+BoundaryWalls clip_facets(const DiagramSetup& setup, const ActiveSeeds& active, const ClipPlan& plan,
                           const std::vector<SeedStatus>& status) {
   const FacetPairs pairs = pairs_at_boundary(setup.domain.mesh(), plan);
   const std::uint64_t total = pairs.row.size();

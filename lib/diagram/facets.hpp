@@ -5,14 +5,14 @@
 #include <powercell/results.hpp>
 #include <vector>
 
-#include "lib/diagram/plan.hpp"
+#include "lib/diagram/clip_plan.hpp"
 
 namespace powercell {
 
 /// \param plan    of the geometry
 /// \param status  of the cells, by their place in the results
 /// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
-BoundaryWalls clip_facets(const Setup& setup, const Active& active, const Plan& plan,
+BoundaryWalls clip_facets(const DiagramSetup& setup, const ActiveSeeds& active, const ClipPlan& plan,
                           const std::vector<SeedStatus>& status);
 
 }  // namespace powercell

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/base/threads.hpp"
+#include "lib/cl/errors.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/outline.hpp"
 
@@ -53,7 +54,7 @@ RegionMesh make_clip_mesh(const RegionMesh& mesh, bool has_inside) {
 
 /// Whether measures and walls come from the boundary of the domain. Where tetrahedra overlap, points inside
 /// have no definite side; the other conditions are those of exact decisions on double precision.
-bool goes_by_boundary(const Setup& setup) {
+bool goes_by_boundary(const DiagramSetup& setup) {
   const RegionMesh& mesh = setup.domain.mesh();
   if (mesh.solid_boundary) {
     if (setup.float32())
@@ -78,7 +79,7 @@ std::shared_ptr<const RegionMesh> clip_mesh_of(const Domain& domain) {
       [&] { return std::make_shared<RegionMesh>(make_clip_mesh(mesh, powercell::has_inside(mesh))); });
 }
 
-Setup::Setup(Device device_in, Domain domain_in, Options options_in)
+DiagramSetup::DiagramSetup(Device device_in, Domain domain_in, Options options_in)
     : device(std::move(device_in)),
       members(device.members()),
       domain(std::move(domain_in)),
@@ -97,6 +98,12 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
     boundary = std::make_unique<SolidBoundary>(device.context(), domain.mesh(), threads);
   if (options.progress)
     options.progress = [stages = progress](double fraction) { return stages->report(fraction); };
+}
+
+void rethrow_of(const DiagramSetup& setup, const Device& device, const Error& error) {
+  if (setup.members.size() == 1 || !cl::is_of_device(error.code())) throw error;
+  throw Error(error.code(), "device " + device.info().selector() + " \"" + device.info().name +
+                                "\" of a group: " + error.what());
 }
 
 }  // namespace powercell

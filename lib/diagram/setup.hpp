@@ -7,6 +7,7 @@
 #include <memory>
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
+#include <powercell/error.hpp>
 #include <powercell/options.hpp>
 #include <utility>
 #include <vector>
@@ -57,7 +58,7 @@ Precision choose_precision(const Device& device, Precision asked);
 /// for cells inside it; of a periodic domain, the room around all cells of wrapped seeds. Else it is empty.
 std::shared_ptr<const RegionMesh> clip_mesh_of(const Domain& domain);
 
-struct Setup {
+struct DiagramSetup {
   Device device;                ///< or a group; its first member does all that is not shared
   std::vector<Device> members;  ///< of the group
   Domain domain;
@@ -75,11 +76,25 @@ struct Setup {
   std::unique_ptr<SolidBoundary> boundary;
 
   /// \throw Error no_fp64; invalid_argument, unsupported (options); opencl, out_of_device_memory
-  Setup(Device device, Domain domain, Options options);
+  DiagramSetup(Device device, Domain domain, Options options);
   const Period* period() const { return domain.mesh().period.get(); }  ///< null if not periodic
   bool float32() const { return on_device.float32(); }
   /// Whether cells are decided exactly; those computed from the boundary alone always are.
   bool exact() const { return options.decisions == Decisions::exact || boundary; }
 };
+
+/// Throws `error` again, with the name of the device before its message if it comes from the device and this
+/// is one of several.
+[[noreturn]] void rethrow_of(const DiagramSetup& setup, const Device& device, const Error& error);
+
+/// Calls `body`, which uses a device of the setup. Of a group, errors of the device name it.
+template <class Body>
+decltype(auto) on_device(const DiagramSetup& setup, const Device& device, const Body& body) {
+  try {
+    return body();
+  } catch (const Error& error) {
+    rethrow_of(setup, device, error);
+  }
+}
 
 }  // namespace powercell

@@ -40,8 +40,8 @@ void add_part(std::uint32_t rank, const solid::SolidPart& part, MomentSums& meas
 
 }  // namespace
 
-SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan& plan, MomentSums& measures,
-                           WallCollector& walls) {
+SolidSides add_solid_cells(const DiagramSetup& setup, const ActiveSeeds& active, const ClipPlan& plan,
+                           MomentSums& measures, WallCollector& walls) {
   const SolidCells& solid = *plan.solid;
   const SeedSet& seeds = active.seeds();
   if (setup.domain.is_solid() && !solid.unclear.empty()) refuse_contradiction(seeds, solid.unclear.front());

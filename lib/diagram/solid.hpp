@@ -6,7 +6,7 @@
 
 #include "lib/collect/join_solid.hpp"
 #include "lib/collect/walls.hpp"
-#include "lib/diagram/plan.hpp"
+#include "lib/diagram/clip_plan.hpp"
 #include "lib/integrate/moment_sums.hpp"
 
 namespace powercell {
@@ -19,7 +19,7 @@ struct SolidSides {
 };
 
 /// \pre plan.solid, and all pairs of the plan were added to `measures` and `walls`
-SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan& plan, MomentSums& measures,
-                           WallCollector& walls);
+SolidSides add_solid_cells(const DiagramSetup& setup, const ActiveSeeds& active, const ClipPlan& plan,
+                           MomentSums& measures, WallCollector& walls);
 
 }  // namespace powercell

@@ -4,7 +4,6 @@
 
 #include "lib/collect/dual.hpp"
 #include "lib/collect/facets.hpp"
-#include "lib/diagram/device_errors.hpp"
 #include "lib/diagram/facets.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/report/log.hpp"
@@ -27,7 +26,7 @@ void log_run(std::size_t seeds, const Timings& t) {
 
 void Diagram::State::set_seeds(const SeedsView& seeds) {
   const Stopwatch watch(setup.device);
-  Input next = make_input(setup, seeds);
+  GivenSeeds next = make_given_seeds(setup, seeds);
   retire_active();
   tree.reset();
   input = std::move(next);
@@ -61,7 +60,7 @@ void Diagram::State::set_weights(std::span<const double> weights) {
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   const Stopwatch watch(setup.device);
   const bool same_positions = input->seeds.duplicate.empty();
-  Input next = with_weights(setup, std::move(*input), weights);
+  GivenSeeds next = with_weights(setup, std::move(*input), weights);
   retire_active();
   if (!same_positions) tree.reset();
   input = std::move(next);
@@ -78,8 +77,8 @@ void Diagram::State::retire_active() {
   active.reset();
 }
 
-Plan& Diagram::State::plan(PlanKind kind) {
-  std::optional<Plan>& kept =
+ClipPlan& Diagram::State::plan(PlanKind kind) {
+  std::optional<ClipPlan>& kept =
       kind == PlanKind::geometry && setup.has_inside && !selection ? geometry : integrals;
   if (kept && kept->seeds != active->seeds().size()) kept.reset();  // images were added
   if (!kept) kept = make_plan(setup, *active, kind, selection ? &*selection : nullptr, workspace, timings);
@@ -93,14 +92,6 @@ void Diagram::State::make_active() {
   timings.prepare += watch.seconds();
 }
 
-Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
-  Plan& made = on_device(setup, setup.members.front(), [&]() -> Plan& {
-    make_active();
-    return plan(kind);
-  });
-  return clip(setup, *active, made, want, workspace, timings);
-}
-
 bool Diagram::State::release_memory() {
   bool any = workspace.facets.has_value();
   workspace.facets.reset();
@@ -112,29 +103,28 @@ bool Diagram::State::release_memory() {
   return any;
 }
 
-void Diagram::State::pass(PlanKind kind, Wanted want) {
+template <class Body>
+auto Diagram::State::within_memory(const Body& body) {
   for (;;) {
-    Clipped clipped;
     try {
-      clipped = clip_once(kind, want);
+      return body();
     } catch (const Error& error) {
       if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;
-      continue;
     }
-    if (clipped.measures) {
-      // The measures of an earlier pass by unrestricted cells are kept.
-      if (!results->measures) results->measures = std::move(clipped.measures);
-      if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
-      if (clipped.cells) results->cells = std::move(clipped.cells);
-      if (clipped.reach) results->reach = std::move(clipped.reach);
-      results->unproved = std::move(clipped.unproved);
-      if (clipped.solid) {
-        results->joined = std::move(clipped.solid->joined);
-        results->simplices = std::move(clipped.solid->simplices);
-        geometry.reset();  // it has all cells at the boundary
-      }
-      return;
-    }
+  }
+}
+
+void Diagram::State::pass(PlanKind kind, Wanted want) {
+  for (;;) {
+    Clipped clipped = within_memory([&] {
+      ClipPlan& made = on_device(setup, setup.members.front(), [&]() -> ClipPlan& {
+        make_active();
+        return plan(kind);
+      });
+      return clip(setup, *active, made, want, workspace, timings);
+    });
+    if (clipped.measures) return store(std::move(clipped));
+    // The walls of an excluded flat cell are those of its neighbours, so all cells are clipped again.
     if (!clipped.flat.empty()) {
       active->exclude_flat_cells(clipped.flat);
       geometry.reset();
@@ -143,6 +133,19 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
     }
     integrals.reset();
   }
+}
+
+void Diagram::State::store(Clipped&& clipped) {
+  // The measures of an earlier pass by unrestricted cells are kept.
+  if (!results->measures) results->measures = std::move(clipped.measures);
+  if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
+  if (clipped.cells) results->cells = std::move(clipped.cells);
+  if (clipped.reach) results->reach = std::move(clipped.reach);
+  results->unproved = std::move(clipped.unproved);
+  if (!clipped.solid) return;
+  results->joined = std::move(clipped.solid->joined);
+  results->simplices = std::move(clipped.solid->simplices);
+  geometry.reset();  // it has all cells at the boundary
 }
 
 void Diagram::State::compute_missing(Wanted want) {
@@ -228,17 +231,13 @@ const BoundaryWalls& Diagram::State::boundary_walls() {
   compute({});  // excludes flat cells, and has images enough
   setup.progress->begin_computation();
   setup.progress->begin_pass(0, 1);
-  for (;;) {
-    try {
-      results->boundary_walls = on_device(setup, setup.members.front(), [&] {
-        make_active();
-        return clip_facets(setup, *active, plan(PlanKind::geometry), results->measures->status);
-      });
-      return *results->boundary_walls;
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;
-    }
-  }
+  results->boundary_walls = within_memory([&] {
+    return on_device(setup, setup.members.front(), [&] {
+      make_active();
+      return clip_facets(setup, *active, plan(PlanKind::geometry), results->measures->status);
+    });
+  });
+  return *results->boundary_walls;
 }
 
 const Cells& Diagram::State::cells() {

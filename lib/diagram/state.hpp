@@ -12,11 +12,11 @@
 namespace powercell {
 
 struct Diagram::State {
-  Setup setup;
-  std::optional<Input> input;
-  std::optional<Selection> selection;       // of the input; without one all cells are computed
-  std::optional<Active> active;             // of the input
-  std::optional<Plan> integrals, geometry;  // of the active seeds, by PlanKind
+  DiagramSetup setup;
+  std::optional<GivenSeeds> input;
+  std::optional<Selection> selection;           // of the input; without one all cells are computed
+  std::optional<ActiveSeeds> active;            // of the input
+  std::optional<ClipPlan> integrals, geometry;  // of the active seeds, by PlanKind
 
   struct Results {
     std::optional<Measures> measures;
@@ -60,12 +60,15 @@ struct Diagram::State {
   /// Discards everything that depends on the seeds, except their tree.
   void retire_active();
   void make_active();
-  Plan& plan(PlanKind kind);
-  /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
+  ClipPlan& plan(PlanKind kind);
+  /// The computation: active seeds, plan, clip, results; repeatedly if cells must be excluded or restricted.
   void pass(PlanKind kind, Wanted want);
+  void store(Clipped&& clipped);
+  /// Calls `body` again without the kept buffers where it runs out of device memory.
+  template <class Body>
+  auto within_memory(const Body& body);
   /// Frees the kept buffers of the devices; false if there are none.
   bool release_memory();
-  Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);
   /// Computes the selected cells of a solid: all cells, of which the others are dropped.
   void compute_in_solid(Wanted want);

@@ -9,7 +9,7 @@
 #include "lib/base/float_environment.hpp"
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/clip/host_clip.hpp"
+#include "lib/cell/host_clip.hpp"
 #include "lib/collect/dual.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/domain/frame.hpp"

@@ -23,7 +23,7 @@ enum class Location : unsigned char { inside, outside, unclear };
 /// Locates a cell that does not meet the boundary by a point near its centroid.
 class CellLocator {
  public:
-  explicit CellLocator(const Setup& setup)
+  explicit CellLocator(const DiagramSetup& setup)
       : dimension_(setup.domain.dimension()),
         error_(moment_errors * (setup.float32() ? 0x1p-24 : 0x1p-53)),
         locator_(setup.pairs.locator()) {
@@ -73,7 +73,7 @@ class CellLocator {
 
 }  // namespace
 
-std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
+std::vector<std::uint32_t> classify_unrestricted_cells(const DiagramSetup& setup, const SeedSet& seeds,
                                                        const Pairs& pairs, Measures& measures) {
   const CellLocator locator(setup);
   const std::size_t container = setup.domain.region_count();

@@ -13,7 +13,7 @@ namespace powercell {
 /// Marks unrestricted cells outside the domain as hidden in `measures`. They do not meet the boundary, so one
 /// point of a cell decides (docs/mathematics.md, "Cells inside the domain").
 /// \return the ranks of cells for which this is unclear: too thin, or in overlapping regions
-std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
+std::vector<std::uint32_t> classify_unrestricted_cells(const DiagramSetup& setup, const SeedSet& seeds,
                                                        const Pairs& pairs, Measures& measures);
 
 }  // namespace powercell

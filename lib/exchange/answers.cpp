@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "lib/base/threads.hpp"
+#include "lib/exchange/boundary_leaves.hpp"
 #include "lib/exchange/cut_test.hpp"
-#include "lib/exchange/rim.hpp"
 #include "lib/exchange/tree_walk.hpp"
 
 namespace powercell::exchange {
@@ -124,13 +124,13 @@ std::vector<std::uint32_t> joined(const std::vector<std::vector<std::uint32_t>>&
 
 }  // namespace
 
-std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads,
+std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const BoundaryLeaves& boundary, int threads,
                                       std::pair<std::size_t, std::size_t> own) {
-  std::vector<std::vector<std::uint32_t>> found(rim.leaves());
+  std::vector<std::vector<std::uint32_t>> found(boundary.leaves());
   parallel_for(threads_for(found.size(), threads, least_shared_leaves), found.size(),
                [&](std::size_t begin, std::size_t end) {
-                 NearRim near(seeds, own);
-                 for (std::size_t k = begin; k < end; ++k) near.find(rim, k, found[k]);
+                 NearBoundary near(seeds, own);
+                 for (std::size_t k = begin; k < end; ++k) near.find(boundary, k, found[k]);
                });
   std::vector<std::uint32_t> ranks = joined(found);
   std::sort(ranks.begin(), ranks.end());

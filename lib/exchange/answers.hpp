@@ -1,5 +1,5 @@
 /// \file
-/// Answers to another shard's queries: seeds near its rim, and seeds that cut off vertices of its cells.
+/// Answers to another shard's queries: seeds near its boundary, and seeds that cut off vertices of its cells.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 namespace powercell::exchange {
 
 /// Ranks of likely neighbours of the seeds in the boundary leaves, ascending.
-/// \param own  as in NearRim
-std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads,
+/// \param own  as in NearBoundary
+std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const BoundaryLeaves& boundary, int threads,
                                       std::pair<std::size_t, std::size_t> own = {});
 
 /// Whether the seed of a rank may be part of an answer.

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "lib/base/post.hpp"
+#include "lib/base/mailbox.hpp"
 #include "lib/base/random.hpp"
-#include "lib/diagram/input.hpp"
+#include "lib/diagram/given_seeds.hpp"
 #include "lib/domain/region_mesh.hpp"
 
 namespace powercell::exchange {
@@ -24,7 +24,7 @@ namespace {
 
 /// The first fault of a shard's seeds in ascending order of their ids, with the id.
 /// \pre there is one
-InputFault first_by_id(const Setup& setup, const ShardSeeds& shard) {
+InputFault first_by_id(const DiagramSetup& setup, const ShardSeeds& shard) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t k = 0; k < shard.ids.size(); ++k) order.emplace_back(shard.ids[k], k);
   std::sort(order.begin(), order.end());
@@ -39,7 +39,7 @@ InputFault first_by_id(const Setup& setup, const ShardSeeds& shard) {
   return found;
 }
 
-void require_sizes(const Setup& setup, const ShardSeeds& shard) {
+void require_sizes(const DiagramSetup& setup, const ShardSeeds& shard) {
   if (shard.ids.size() != shard.seeds.size())
     throw Error(ErrorCode::invalid_argument, std::to_string(shard.ids.size()) + " ids for " +
                                                  std::to_string(shard.seeds.size()) + " seeds");
@@ -51,7 +51,7 @@ using Twice = std::array<std::uint64_t, 3>;
 
 /// The lowest id that occurs twice among letters.
 /// \return empty if none does
-std::vector<Twice> lowest_twice(const Post::Letters& letters) {
+std::vector<Twice> lowest_twice(const Mailbox::Letters& letters) {
   std::vector<std::pair<std::uint64_t, int>> ids;
   std::vector<std::uint64_t> of_shard;
   for (const auto& [from, letter] : letters) {
@@ -69,27 +69,27 @@ std::vector<Twice> lowest_twice(const Post::Letters& letters) {
 }
 
 /// Equal ids go to the same shard.
-void require_once(std::span<const ShardSeeds> here, Post& post) {
-  std::vector<Post::Letters> letters(here.size());
+void require_once(std::span<const ShardSeeds> here, Mailbox& mailbox) {
+  std::vector<Mailbox::Letters> letters(here.size());
   for (std::size_t s = 0; s < here.size(); ++s) {
-    std::vector<std::vector<std::uint64_t>> to(static_cast<std::size_t>(post.shards()));
+    std::vector<std::vector<std::uint64_t>> to(static_cast<std::size_t>(mailbox.shards()));
     for (const std::uint64_t id : here[s].ids)
-      to[static_cast<std::size_t>(meeting_shard(id, post.shards()))].push_back(id);
+      to[static_cast<std::size_t>(meeting_shard(id, mailbox.shards()))].push_back(id);
     for (std::size_t t = 0; t < to.size(); ++t)
       if (!to[t].empty()) letters[s][static_cast<int>(t)] = packed(to[t]);
   }
   std::vector<Bytes> found;
-  for (const Post::Letters& to_shard : post.deliver(std::move(letters)))
+  for (const Mailbox::Letters& to_shard : mailbox.deliver(std::move(letters)))
     found.push_back(packed(lowest_twice(to_shard)));
   std::optional<Twice> first;
   std::vector<Twice> twice;
-  for (const Bytes& of_shard : post.share(std::move(found))) {
+  for (const Bytes& of_shard : mailbox.share(std::move(found))) {
     unpack(of_shard, twice);
     if (!twice.empty() && (!first || twice[0] < *first)) first = twice[0];
   }
   if (!first) return;
   const auto [id, a, b] = *first;
-  const std::string noun = post.noun(),
+  const std::string noun = mailbox.noun(),
                     where = a == b ? "both of " + noun + " " + std::to_string(a)
                                    : "of " + noun + "s " + std::to_string(a) + " and " + std::to_string(b);
   throw Error(ErrorCode::invalid_argument, "two seeds have the id " + std::to_string(id) + ", " + where +
@@ -97,7 +97,7 @@ void require_once(std::span<const ShardSeeds> here, Post& post) {
 }
 
 /// Refuses the seed that a diagram of all seeds would refuse first.
-void require_no_fault(const Setup& setup, std::span<const ShardSeeds> here, Post& post) {
+void require_no_fault(const DiagramSetup& setup, std::span<const ShardSeeds> here, Mailbox& mailbox) {
   std::vector<Bytes> found;
   for (const ShardSeeds& shard : here) {
     std::vector<std::uint64_t> key;
@@ -111,7 +111,7 @@ void require_no_fault(const Setup& setup, std::span<const ShardSeeds> here, Post
   }
   std::vector<std::uint64_t> least, key;
   std::vector<char> reason, why;
-  for (const Bytes& of_shard : post.share(std::move(found))) {
+  for (const Bytes& of_shard : mailbox.share(std::move(found))) {
     unpack(of_shard, key, why);
     if (key.empty() || (!least.empty() && !(key < least))) continue;
     std::tie(least, reason) = std::pair(key, why);
@@ -138,11 +138,11 @@ void require_supported(const Domain& domain, const Options& options, const std::
                 "the laws that Options::certify checks are those of one diagram; turn it off for " + what);
 }
 
-void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post) {
+void require_valid(const DiagramSetup& setup, std::span<const ShardSeeds> here, Mailbox& mailbox) {
   if (setup.float32()) throw Error(ErrorCode::unsupported, "distributed seeds need double precision");
   for (const ShardSeeds& shard : here) require_sizes(setup, shard);
-  require_once(here, post);
-  require_no_fault(setup, here, post);
+  require_once(here, mailbox);
+  require_no_fault(setup, here, mailbox);
 }
 
 namespace {
@@ -194,10 +194,10 @@ std::vector<NamedValue> call_values(const Domain& domain, const Options& options
           {"Options::certify", number(options.certify)}};
 }
 
-void require_same_call(const Domain& domain, const DistributedOptions& options, Post& post) {
+void require_same_call(const Domain& domain, const DistributedOptions& options, Mailbox& mailbox) {
   std::vector<NamedValue> values = call_values(domain, options.diagram);
   values.push_back({"DistributedOptions::redistribute", static_cast<std::uint64_t>(options.redistribute)});
-  require_same(values, post);
+  require_same(values, mailbox);
 }
 
 }  // namespace powercell::exchange

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/base/post.hpp"
+#include "lib/base/mailbox.hpp"
 #include "lib/diagram/setup.hpp"
 
 namespace powercell::exchange {
@@ -33,12 +33,12 @@ void require_supported(const Domain& domain, const Options& options,
 /// \param here  the seeds of each shard that is here
 /// \throw Error unsupported (single precision), invalid_argument (sizes of the seeds here, an id that is
 /// there twice among all), invalid_seed (the one that a diagram of all would name, by its id)
-void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post);
+void require_valid(const DiagramSetup& setup, std::span<const ShardSeeds> here, Mailbox& mailbox);
 
 /// The domain and those options that decide what is computed.
 std::vector<NamedValue> call_values(const Domain& domain, const Options& options);
 
 /// \throw Error invalid_argument, with what differs
-void require_same_call(const Domain& domain, const DistributedOptions& options, Post& post);
+void require_same_call(const Domain& domain, const DistributedOptions& options, Mailbox& mailbox);
 
 }  // namespace powercell::exchange

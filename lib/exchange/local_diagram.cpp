@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "lib/base/float_environment.hpp"
-#include "lib/base/rank_post.hpp"
+#include "lib/base/rank_mailbox.hpp"
 #include "lib/exchange/checks.hpp"
 
 namespace powercell {
@@ -83,15 +83,15 @@ std::vector<std::uint32_t> places(const std::vector<std::uint64_t>& ids,
 /// \pre called on all ranks
 class Directory {
  public:
-  Directory(const NamedSeeds& own, Post& post) : post_(post), known_{own.d, {}, {}, {}} {
+  Directory(const NamedSeeds& own, Mailbox& mailbox) : mailbox_(mailbox), known_{own.d, {}, {}, {}} {
     std::map<int, NamedSeeds> sent;
     for (std::size_t k = 0; k < own.ids.size(); ++k)
-      sent.try_emplace(meeting_shard(own.ids[k], post.shards()), NamedSeeds{own.d, {}, {}, {}})
+      sent.try_emplace(meeting_shard(own.ids[k], mailbox.shards()), NamedSeeds{own.d, {}, {}, {}})
           .first->second.add(own, k);
-    Post::Letters letters;
+    Mailbox::Letters letters;
     for (const auto& [to, seeds] : sent) letters[to] = packed(seeds.ids, seeds.positions, seeds.weights);
     NamedSeeds received{own.d, {}, {}, {}};
-    for (const auto& [from, letter] : post.deliver_one(std::move(letters))) {
+    for (const auto& [from, letter] : mailbox.deliver_one(std::move(letters))) {
       unpack(letter, received.ids, received.positions, received.weights);
       for (std::size_t k = 0; k < received.ids.size(); ++k) {
         place_[received.ids[k]] = known_.ids.size();
@@ -104,11 +104,11 @@ class Directory {
   /// \throw Error invalid_argument if nobody has one
   void look_up(const std::vector<std::uint64_t>& wanted, NamedSeeds& seeds) {
     std::map<int, std::vector<std::uint64_t>> asked;
-    for (const std::uint64_t id : wanted) asked[meeting_shard(id, post_.shards())].push_back(id);
-    Post::Letters letters;
+    for (const std::uint64_t id : wanted) asked[meeting_shard(id, mailbox_.shards())].push_back(id);
+    Mailbox::Letters letters;
     for (const auto& [to, ids] : asked) letters[to] = packed(ids);
     NamedSeeds answer{seeds.d, {}, {}, {}};
-    letters = post_.deliver_one(answers_to(post_.deliver_one(std::move(letters))));
+    letters = mailbox_.deliver_one(answers_to(mailbox_.deliver_one(std::move(letters))));
     for (const auto& [from, letter] : letters) {
       unpack(letter, answer.ids, answer.positions, answer.weights);
       for (std::size_t k = 0; k < answer.ids.size(); ++k) seeds.add(answer, k);
@@ -116,8 +116,8 @@ class Directory {
   }
 
  private:
-  Post::Letters answers_to(const Post::Letters& questions) const {
-    Post::Letters letters;
+  Mailbox::Letters answers_to(const Mailbox::Letters& questions) const {
+    Mailbox::Letters letters;
     std::vector<std::uint64_t> ids;
     for (const auto& [from, letter] : questions) {
       unpack(letter, ids);
@@ -136,7 +136,7 @@ class Directory {
     return letters;
   }
 
-  Post& post_;
+  Mailbox& mailbox_;
   NamedSeeds known_;
   std::unordered_map<std::uint64_t, std::size_t> place_;  // by id: in known_
 };
@@ -166,20 +166,20 @@ LocalDiagram local_diagram(Communicator& communicator, const Device& device, con
                            std::span<const std::uint64_t> ids, const SeedsView& seeds,
                            const DistributedCells& cells, const Options& options) {
   const FloatEnvironment environment;
-  RankPost post(communicator);
-  return post.together([&] {
+  RankMailbox mailbox(communicator);
+  return mailbox.together([&] {
     const exchange::ShardSeeds own{ids, seeds};
     exchange::require_rows(domain, own, cells);
     std::optional<DistributedCells> in_box;
     if (domain.region_count() > 1)
-      in_box = post.nested([&] {
+      in_box = mailbox.nested([&] {
         return compute_distributed(communicator, device, exchange::surrounding_box(domain), ids, seeds,
                                    {options});
       });
     const DistributedCells& around = in_box ? *in_box : cells;
     const exchange::NamedSeeds here = exchange::seeds_with_cells(own, cells.measures);
     exchange::NamedSeeds all = here;
-    exchange::Directory(exchange::seeds_with_cells(own, around.measures), post)
+    exchange::Directory(exchange::seeds_with_cells(own, around.measures), mailbox)
         .look_up(exchange::neighbors_besides(here, cells.measures, around), all);
     all = exchange::ascending(all);
     LocalDiagram made{Diagram(device, domain, options), all.ids, exchange::places(here.ids, all.ids)};

@@ -12,14 +12,14 @@
 
 namespace powercell::exchange {
 
-/// The part of a shard that seeds of another may concern, with the question for an outline of these.
+/// The part of a shard that seeds of another may concern, with the question for an coarse tree of these.
 struct NearPart {
   Box box;
   double lightest = 0;  ///< weight of a seed there
 };
 
-/// Leaves of a shard's tree at its rim, with the question which seeds of another are likely neighbours.
-struct Rim {
+/// Leaves of a shard's tree at its boundary, with the question which seeds of another are likely neighbours.
+struct BoundaryLeaves {
   std::vector<double> spacing;  ///< per leaf: how far its seeds are apart, about
   /// Per leaf: rows of positions, of eight seeds; some more than once if it has fewer.
   std::vector<double> seed;
@@ -30,11 +30,11 @@ struct Rim {
   std::size_t bytes() const { return bytes_of(spacing) + bytes_of(seed) + sizeof all + sizeof lightest; }
 };
 
-/// Seeds near the rim of another shard.
+/// Seeds near the boundary of another shard.
 struct Halo {
   std::vector<std::uint64_t> id;
   std::vector<double> seed;  ///< rows of position and weight
-  PackedTree rest;           ///< an outline of those that were not sent
+  PackedTree unsent;         ///< an coarse tree of those that were not sent
 
   std::size_t bytes() const { return bytes_of(id) + bytes_of(seed); }
 };
@@ -57,13 +57,13 @@ struct Reply {
   /// Per vertex of the request: 1 if a seed sent now could cut it off, 0 if no seed but those sent before
   /// could.
   std::vector<std::uint8_t> found;
-  PackedTree outline;  ///< of all its seeds, if the asker has none yet
+  PackedTree coarse_tree;  ///< of all its seeds, if the asker has none yet
 
   std::size_t bytes() const { return bytes_of(id) + bytes_of(seed) + bytes_of(found); }
 };
 
 /// Hidden seeds, with the question which of them are duplicates.
-struct Twins {
+struct Duplicates {
   std::vector<std::uint64_t> id;
   std::vector<double> seed;  ///< rows of position and weight
 

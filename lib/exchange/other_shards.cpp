@@ -13,10 +13,11 @@ bool cell_may_meet(const PackedTree& boxes, std::uint32_t node, const CutTest& c
 
 }  // namespace
 
-FirstOutlines::FirstOutlines(std::vector<PackedTree> outline, int dimension) : outline_(std::move(outline)) {
+FirstCoarseTrees::FirstCoarseTrees(std::vector<PackedTree> coarse_tree, int dimension)
+    : coarse_tree_(std::move(coarse_tree)) {
   TreeOfBoxes boxes(dimension);
-  for (std::size_t shard = 0; shard < outline_.size(); ++shard) {
-    const PackedTree& tree = outline_[shard];
+  for (std::size_t shard = 0; shard < coarse_tree_.size(); ++shard) {
+    const PackedTree& tree = coarse_tree_[shard];
     if (tree.levels() == 0) continue;
     const std::uint32_t root = tree.level_offset[tree.levels() - 1];
     boxes.add(box_of(tree, root), tree.weight[root]);
@@ -29,7 +30,7 @@ template <class Open>
 bool NearBoxes::has_box(const Open& open) const {
   bool found = false;
   others_.visit(open, [&](int shard) {
-    const PackedTree& boxes = others_.rest_of(shard);
+    const PackedTree& boxes = others_.unsent_of(shard);
     found = has_open_leaf(boxes, [&](std::uint32_t node) { return open(boxes, node); });
     return !found;
   });
@@ -64,7 +65,7 @@ void NearBoxes::set(const double* seed, double radius) {
       return cell_may_meet(boxes, node, cell);
     };
     others_.visit(open, [&](int shard) {
-      const PackedTree& boxes = others_.rest_of(shard);
+      const PackedTree& boxes = others_.unsent_of(shard);
       const std::size_t before = box_.size();
       visit_leaves(
           boxes, [&](std::uint32_t node) { return open(boxes, node); },
@@ -83,7 +84,7 @@ void NearBoxes::views_at(const Point& y, std::vector<View>& views) {
   views.clear();
   std::size_t begin = 0;
   for (Group& group : groups_) {
-    const PackedTree& boxes = others_.rest_of(group.view.shard);
+    const PackedTree& boxes = others_.unsent_of(group.view.shard);
     const auto first = box_.begin() + static_cast<std::ptrdiff_t>(std::exchange(begin, group.end)),
                last = box_.begin() + static_cast<std::ptrdiff_t>(group.end);
     group.cell.move_to(y);
@@ -97,7 +98,7 @@ bool NearBoxes::may_cut_at(const View& view, const Point& y) {
   const auto group = std::find_if(groups_.begin(), groups_.end(),
                                   [&](const Group& candidate) { return candidate.view == view; });
   group->cell.move_to(y);
-  return may_cut(others_.rest_of(view.shard), group->cell);
+  return may_cut(others_.unsent_of(view.shard), group->cell);
 }
 
 std::array<double, 4> NearBoxes::row(const View& view) const {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "lib/exchange/coarse_tree.hpp"
 #include "lib/exchange/cut_test.hpp"
-#include "lib/exchange/outline.hpp"
 #include "lib/exchange/translations.hpp"
 #include "lib/exchange/tree_of_boxes.hpp"
 #include "lib/exchange/tree_walk.hpp"
@@ -19,43 +19,43 @@
 namespace powercell::exchange {
 
 /// What all shards tell all others at first, with a tree over these, so that far ones cost nothing.
-class FirstOutlines {
+class FirstCoarseTrees {
  public:
-  /// \param outline  by shard, of all its seeds; one without levels if it has none
-  FirstOutlines(std::vector<PackedTree> outline, int dimension);
+  /// \param coarse tree  by shard, of all its seeds; one without levels if it has none
+  FirstCoarseTrees(std::vector<PackedTree> coarse_tree, int dimension);
 
-  std::size_t shards() const { return outline_.size(); }
-  const PackedTree& of(int shard) const { return outline_[static_cast<std::size_t>(shard)]; }
+  std::size_t shards() const { return coarse_tree_.size(); }
+  const PackedTree& of(int shard) const { return coarse_tree_[static_cast<std::size_t>(shard)]; }
   /// The lowest level has the boxes of shards that have seeds.
   const PackedTree& tree() const { return tree_; }
   /// Of a node of that level.
   int shard(std::uint32_t node) const { return shard_[node]; }
 
  private:
-  std::vector<PackedTree> outline_;
+  std::vector<PackedTree> coarse_tree_;
   std::vector<int> shard_;
   PackedTree tree_;
 };
 
-/// The outlines that one shard has of the others.
+/// The coarse trees that one shard has of the others.
 class OtherShards {
  public:
   /// \param self  the shard that has them
   explicit OtherShards(int self) : self_(self) {}
   int self() const { return self_; }
 
-  void meet(std::shared_ptr<const FirstOutlines> first) { first_ = std::move(first); }
-  const FirstOutlines& first() const { return *first_; }
+  void meet(std::shared_ptr<const FirstCoarseTrees> first) { first_ = std::move(first); }
+  const FirstCoarseTrees& first() const { return *first_; }
   int dimension() const { return first_->tree().dimension; }
-  /// A finer outline of all seeds of a shard.
-  void take_outline(int shard, PackedTree&& outline) { finer_[shard] = std::move(outline); }
-  /// An outline of those that it has not sent.
-  void take_rest(int shard, PackedTree&& rest) { rest_[shard] = std::move(rest); }
+  /// A finer coarse tree of all seeds of a shard.
+  void take_coarse_tree(int shard, PackedTree&& coarse_tree) { finer_[shard] = std::move(coarse_tree); }
+  /// An coarse tree of those that it has not sent.
+  void take_unsent(int shard, PackedTree&& unsent) { unsent_[shard] = std::move(unsent); }
 
-  /// The finest outline of all seeds of a shard.
+  /// The finest coarse tree of all seeds of a shard.
   const PackedTree& all_of(int shard) const { return found(finer_, shard, first_->of(shard)); }
-  /// The finest outline of those that it has not sent.
-  const PackedTree& rest_of(int shard) const { return found(rest_, shard, all_of(shard)); }
+  /// The finest coarse tree of those that it has not sent.
+  const PackedTree& unsent_of(int shard) const { return found(unsent_, shard, all_of(shard)); }
 
   /// Calls use(shard) for the shards whose first box, with all boxes above it, is open(tree, number), until
   /// it returns false.
@@ -77,11 +77,11 @@ class OtherShards {
   }
 
   int self_;
-  std::shared_ptr<const FirstOutlines> first_;
-  std::map<int, PackedTree> finer_, rest_;
+  std::shared_ptr<const FirstCoarseTrees> first_;
+  std::map<int, PackedTree> finer_, unsent_;
 };
 
-/// The boxes of outlines that could cut a cell.
+/// The boxes of coarse trees that could cut a cell.
 class NearBoxes {
  public:
   /// A cell seen from the seeds of a shard.
@@ -116,7 +116,7 @@ class NearBoxes {
 
  private:
   static constexpr std::size_t most_boxes = 96;  // more are searched from the roots
-  /// Whether an outline has a leaf that, like all nodes above it, is open(tree, number).
+  /// Whether an coarse tree has a leaf that, like all nodes above it, is open(tree, number).
   template <class Open>
   bool has_box(const Open& open) const;
 
@@ -131,7 +131,7 @@ class NearBoxes {
   const std::vector<Point>& moves_;
   std::array<double, 4> seed_{};
   std::vector<Group> groups_;
-  std::vector<std::uint32_t> box_;  // nodes of the outline of their shard
+  std::vector<std::uint32_t> box_;  // nodes of the coarse tree of their shard
   bool complete_ = true;            // whether box_ has all boxes
 };
 

@@ -9,17 +9,17 @@
 #include "lib/base/positions.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/exchange/answers.hpp"
-#include "lib/exchange/outline.hpp"
-#include "lib/exchange/rest.hpp"
-#include "lib/exchange/rim.hpp"
+#include "lib/exchange/boundary_leaves.hpp"
+#include "lib/exchange/coarse_tree.hpp"
 #include "lib/exchange/tree_walk.hpp"
+#include "lib/exchange/unsent.hpp"
 #include "lib/neighbors/hidden_seeds.hpp"
 
 namespace powercell::exchange {
 namespace {
 
-/// Nodes of the lowest level of an outline. That of the rest has lower ones at the rim.
-constexpr std::size_t outline_nodes = 512;
+/// Nodes of the lowest level of an coarse tree. That of the rest has lower ones at the boundary.
+constexpr std::size_t coarse_nodes = 512;
 
 /// The part with the seeds whose cells are asked about.
 NearPart part_of(const Request& request, std::size_t d) {
@@ -71,7 +71,7 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
   for (const std::uint32_t i : set_.duplicate) set_hidden(i);
 }
 
-void OwnSeeds::set_hidden_aside(const Setup& setup) {
+void OwnSeeds::set_hidden_aside(const DiagramSetup& setup) {
   if (!may_hide_many(set_)) return;
   SeedBuffers buffers(setup.device.context());
   buffers.upload(setup.on_device.frame(), set_, tree_, threads_);
@@ -85,37 +85,37 @@ void OwnSeeds::set_hidden_aside(const Setup& setup) {
 }
 
 PackedTree OwnSeeds::box() const {
-  return outline_of(whole().tree, 1);
+  return coarse_tree_of(whole().tree, 1);
 }
 
-Rim OwnSeeds::rim(const PackedTree& other, const std::vector<Point>& moves) const {
-  return find_rim(in_tree(), other, moves);
+BoundaryLeaves OwnSeeds::boundary(const PackedTree& other, const std::vector<Point>& moves) const {
+  return find_boundary_leaves(in_tree(), other, moves);
 }
 
-PackedTree OwnSeeds::outline(int asker, const NearPart& part) {
+PackedTree OwnSeeds::coarse_tree(int asker, const NearPart& part) {
   sent_to(asker);
   const PackedTree& tree = whole().tree;
-  return outline_of(tree, cut_near(tree, outline_level(tree, outline_nodes), part));
+  return coarse_tree_of(tree, cut_near(tree, coarse_level(tree, coarse_nodes), part));
 }
 
-Halo OwnSeeds::near(int asker, const Rim& rim) {
+Halo OwnSeeds::near(int asker, const BoundaryLeaves& boundary) {
   Halo halo;
-  if (set_.size() == 0 || rim.leaves() == 0) return halo;
+  if (set_.size() == 0 || boundary.leaves() == 0) return halo;
   const std::size_t d = width_ - 1;
   const TreeCut cut =
-      cut_near(tree_, outline_level(tree_, outline_nodes),
-               {box_around(rim.seed.data(), rim.leaves() * PackedTree::fan, d), rim.lightest});
+      cut_near(tree_, coarse_level(tree_, coarse_nodes),
+               {box_around(boundary.seed.data(), boundary.leaves() * PackedTree::fan, d), boundary.lightest});
   Sent& sent = sent_to(asker);
-  if (NearRim(in_tree()).is_everywhere(rim)) {
-    halo.rest = outline_of(tree_, cut);
+  if (NearBoundary(in_tree()).is_everywhere(boundary)) {
+    halo.unsent = coarse_tree_of(tree_, cut);
     return halo;
   }
-  const std::vector<std::uint32_t> ranks = ranks_near(in_tree(), rim, threads_);
+  const std::vector<std::uint32_t> ranks = ranks_near(in_tree(), boundary, threads_);
   for (const std::uint32_t rank : ranks) {
     sent[rank] = 1;
     send(rank, halo.id, halo.seed);
   }
-  halo.rest = outline_of_rest(in_tree(), cut, rim, ranks);
+  halo.unsent = coarse_tree_of_unsent(in_tree(), cut, boundary, ranks);
   return halo;
 }
 
@@ -128,7 +128,7 @@ void OwnSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::ve
 
 Reply OwnSeeds::answer(int asker, const Request& request) {
   Reply reply;
-  if (!sent_.contains(asker)) reply.outline = outline(asker, part_of(request, width_ - 1));
+  if (!sent_.contains(asker)) reply.coarse_tree = coarse_tree(asker, part_of(request, width_ - 1));
   Sent& sent = sent_to(asker);
   const auto may_send = [&](std::uint32_t rank) { return sent[rank] == 0 && hidden_[set_.input[rank]] == 0; };
   FirstSeeds first = first_seeds(in_tree(), request, may_send, threads_);
@@ -152,13 +152,13 @@ std::map<int, std::vector<std::uint64_t>> OwnSeeds::take_hidden() {
   return ids;
 }
 
-std::vector<std::uint8_t> OwnSeeds::better_twins(const Twins& twins) const {
+std::vector<std::uint8_t> OwnSeeds::better_duplicates(const Duplicates& duplicates) const {
   const TreeSeeds seeds = whole();
   const SeedSet& set = whole_ ? whole_->set : set_;
   const std::size_t d = seeds.dimension();
-  std::vector<std::uint8_t> better(twins.id.size());
+  std::vector<std::uint8_t> better(duplicates.id.size());
   for (std::size_t k = 0; k < better.size(); ++k) {
-    const double* const row = &twins.seed[k * width_];
+    const double* const row = &duplicates.seed[k * width_];
     visit_leaves(
         seeds.tree, [&](std::uint32_t node) { return contains(seeds.tree, node, row); },
         [&](std::uint32_t leaf) {
@@ -166,7 +166,7 @@ std::vector<std::uint8_t> OwnSeeds::better_twins(const Twins& twins) const {
                ++rank) {
             if (!std::equal(row, row + d, seeds.position(rank))) continue;
             const double weight = set.weights[rank];
-            better[k] = weight > row[d] || (weight == row[d] && id_[set.input[rank]] < twins.id[k]);
+            better[k] = weight > row[d] || (weight == row[d] && id_[set.input[rank]] < duplicates.id[k]);
             return false;  // there is no other at the same position
           }
           return true;

@@ -46,7 +46,7 @@ class OwnSeeds {
   /// needs to be sent them.
   /// \pre nothing was sent
   /// \throw Error as hidden_seeds
-  void set_hidden_aside(const Setup& setup);
+  void set_hidden_aside(const DiagramSetup& setup);
   /// Those that have a better one here at their position.
   std::span<const std::uint32_t> duplicates() const { return set_.duplicate; }
   /// The box of all seeds, those set aside too; without levels if there is none.
@@ -64,27 +64,27 @@ class OwnSeeds {
   /// In the order of the tree.
   TreeSeeds in_tree() const { return {set_, tree_}; }
 
-  /// The rim towards another shard.
-  /// \param other  its outline
-  /// \param moves  as of find_rim
-  Rim rim(const PackedTree& other, const std::vector<Point>& moves) const;
-  /// An outline of all seeds for another shard.
+  /// The boundary towards another shard.
+  /// \param other  its coarse tree
+  /// \param moves  as of find_boundary_leaves
+  BoundaryLeaves boundary(const PackedTree& other, const std::vector<Point>& moves) const;
+  /// An coarse tree of all seeds for another shard.
   /// \param asker  its number
   /// \param part  where its seeds are
   /// \pre there are seeds
-  PackedTree outline(int asker, const NearPart& part);
-  /// The seeds near the rim of another shard; none if that is everywhere.
+  PackedTree coarse_tree(int asker, const NearPart& part);
+  /// The seeds near the boundary of another shard; none if that is everywhere.
   /// \param asker  its number
   /// \pre none were sent to it
-  Halo near(int asker, const Rim& rim);
+  Halo near(int asker, const BoundaryLeaves& boundary);
   /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex; and
-  /// an outline, if the shard that asks has none.
+  /// an coarse tree, if the shard that asks has none.
   /// \param asker  its number
   Reply answer(int asker, const Request& request);
   /// By number of a shard: ids of hidden seeds that were sent to it, each once.
   std::map<int, std::vector<std::uint64_t>> take_hidden();
   /// Per seed of the question: 1 if a seed here at the same position is heavier, or as heavy with a lower id.
-  std::vector<std::uint8_t> better_twins(const Twins& twins) const;
+  std::vector<std::uint8_t> better_duplicates(const Duplicates& duplicates) const;
   /// Seeds sent to all others, counted once for each.
   std::uint64_t sent() const { return sent_count_; }
 
@@ -115,7 +115,8 @@ class OwnSeeds {
   SeedSet set_;
   PackedTree tree_;
   std::optional<Whole> whole_;
-  /// By number of the shards that have an outline: 1 if sent, 2 if it was told too that the seed is hidden.
+  /// By number of the shards that have an coarse tree: 1 if sent, 2 if it was told too that the seed is
+  /// hidden.
   std::map<int, Sent> sent_;
   std::uint64_t sent_count_ = 0;
 };

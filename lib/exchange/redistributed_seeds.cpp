@@ -4,8 +4,8 @@
 #include <string>
 
 #include "lib/base/float_environment.hpp"
-#include "lib/base/post.hpp"
-#include "lib/base/rank_post.hpp"
+#include "lib/base/mailbox.hpp"
+#include "lib/base/rank_mailbox.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/exchange/redistribution.hpp"
 
@@ -13,7 +13,7 @@ namespace powercell {
 namespace exchange {
 namespace {
 
-void require_sendable(const ShardSeeds& own, const Domain* domain, Post& post) {
+void require_sendable(const ShardSeeds& own, const Domain* domain, Mailbox& mailbox) {
   const int d = own.seeds.dimension;
   if (d != 2 && d != 3)
     throw Error(ErrorCode::invalid_argument, "seeds have 2 or 3 coordinates, not " + std::to_string(d));
@@ -25,7 +25,7 @@ void require_sendable(const ShardSeeds& own, const Domain* domain, Post& post) {
   if (own.ids.size() != own.seeds.size())
     throw Error(ErrorCode::invalid_argument,
                 std::to_string(own.ids.size()) + " ids for " + std::to_string(own.seeds.size()) + " seeds");
-  require_same({{"the dimension of the seeds", static_cast<std::uint64_t>(d)}}, post);
+  require_same({{"the dimension of the seeds", static_cast<std::uint64_t>(d)}}, mailbox);
   for (std::size_t k = 0; k < own.seeds.positions.size(); ++k)
     if (!std::isfinite(own.seeds.positions[k]))
       refuse_seed(own.ids[k / static_cast<std::size_t>(d)], "its position is not finite");
@@ -35,13 +35,13 @@ void require_sendable(const ShardSeeds& own, const Domain* domain, Post& post) {
 }  // namespace exchange
 
 struct RedistributedSeeds::State {
-  RankPost post;
+  RankMailbox mailbox;
   exchange::Redistribution moved;
 
   State(Communicator& communicator, const exchange::ShardSeeds& own, const Domain* domain)
-      : post(communicator), moved(post.together([&] {
-          exchange::require_sendable(own, domain, post);
-          return exchange::Redistribution(own, own.seeds.dimension, thread_count(0), post,
+      : mailbox(communicator), moved(mailbox.together([&] {
+          exchange::require_sendable(own, domain, mailbox);
+          return exchange::Redistribution(own, own.seeds.dimension, thread_count(0), mailbox,
                                           domain == nullptr ? nullptr : domain->mesh().period.get());
         })) {}
 };
@@ -66,7 +66,7 @@ SeedsView RedistributedSeeds::seeds() const {
 
 DistributedCells RedistributedSeeds::send_back(const DistributedCells& cells) {
   const FloatEnvironment environment;
-  return state_->post.together([&] {
+  return state_->mailbox.together([&] {
     const std::size_t rows = cells.measures.mass.size();
     if (rows != ids().size() || cells.offset.size() != rows + 1)
       throw Error(ErrorCode::invalid_argument,

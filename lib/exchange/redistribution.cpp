@@ -33,10 +33,10 @@ Bounds bounds_of(const SeedsView& seeds) {
   return box;
 }
 
-Bounds bounds_of_all(const SeedsView& seeds, Post& post) {
+Bounds bounds_of_all(const SeedsView& seeds, Mailbox& mailbox) {
   const Bounds own = bounds_of(seeds);
   Bounds all, box;
-  for (const Bytes& of_rank : post.share({packed(own.low, own.high)})) {
+  for (const Bytes& of_rank : mailbox.share({packed(own.low, own.high)})) {
     unpack(of_rank, box.low, box.high);
     if (all.low.empty()) all = box;
     for (std::size_t k = 0; k < box.low.size(); ++k) {
@@ -49,8 +49,8 @@ Bounds bounds_of_all(const SeedsView& seeds, Post& post) {
 
 /// The last places of all ranks but the highest, from samples of the places of each rank. Of n seeds on p
 /// ranks one gets up to 2 n / (8 p + 64) more or less than n / p.
-std::vector<Place> last_places(const std::vector<Place>& sorted, Post& post) {
-  const auto ranks = static_cast<std::size_t>(post.shards());
+std::vector<Place> last_places(const std::vector<Place>& sorted, Mailbox& mailbox) {
+  const auto ranks = static_cast<std::size_t>(mailbox.shards());
   const std::size_t samples = std::min(sorted.size(), 8 * ranks + 64);
   std::vector<std::uint64_t> key, id, count;  // of each sample: how many seeds it ends
   std::size_t before = 0;
@@ -61,7 +61,7 @@ std::vector<Place> last_places(const std::vector<Place>& sorted, Post& post) {
     count.push_back(end - std::exchange(before, end));
   }
   std::vector<std::pair<Place, std::uint64_t>> all;
-  for (const Bytes& of_rank : post.share({packed(key, id, count)})) {
+  for (const Bytes& of_rank : mailbox.share({packed(key, id, count)})) {
     unpack(of_rank, key, id, count);
     for (std::size_t k = 0; k < key.size(); ++k) all.emplace_back(Place(key[k], id[k]), count[k]);
   }
@@ -162,16 +162,16 @@ class Gather {
 
 }  // namespace
 
-Redistribution::Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post,
+Redistribution::Redistribution(const ShardSeeds& own, int dimension, int threads, Mailbox& mailbox,
                                const Period* period)
     : dimension_(dimension),
-      post_(post),
-      given_(static_cast<std::size_t>(post.shards())),
+      mailbox_(mailbox),
+      given_(static_cast<std::size_t>(mailbox.shards())),
       received_(given_.size()) {
   const auto d = static_cast<std::size_t>(dimension);
   const std::vector<std::size_t> to = destinations(own, threads, period);
   for (std::size_t i = 0; i < to.size(); ++i) given_[to[i]].push_back(i);
-  Post::Letters letters;
+  Mailbox::Letters letters;
   for (std::size_t rank = 0; rank < given_.size(); ++rank) {
     if (given_[rank].empty()) continue;
     std::vector<std::uint64_t> ids;
@@ -194,10 +194,10 @@ Redistribution::Redistribution(const ShardSeeds& own, int dimension, int threads
   }
 }
 
-Post::Letters Redistribution::deliver(Post::Letters letters) {
+Mailbox::Letters Redistribution::deliver(Mailbox::Letters letters) {
   for (const auto& [to, letter] : letters)
-    if (to != post_.first()) bytes_ += letter.size();
-  return post_.deliver_one(std::move(letters));
+    if (to != mailbox_.first()) bytes_ += letter.size();
+  return mailbox_.deliver_one(std::move(letters));
 }
 
 std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int threads,
@@ -208,13 +208,13 @@ std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int
     wrap_all(*period, positions, threads, wrapped);
     positions = wrapped;
   }
-  const Bounds box = bounds_of_all({dimension_, positions, {}}, post_);
+  const Bounds box = bounds_of_all({dimension_, positions, {}}, mailbox_);
   const std::vector<std::uint64_t> keys = hilbert_keys(positions, dimension_, box.low, box.high, threads);
   std::vector<Place> places;
   for (std::size_t i = 0; i < keys.size(); ++i) places.emplace_back(keys[i], own.ids[i]);
   std::vector<Place> sorted = places;
   std::sort(sorted.begin(), sorted.end());
-  const std::vector<Place> last = last_places(sorted, post_);
+  const std::vector<Place> last = last_places(sorted, mailbox_);
   std::vector<std::size_t> to;
   for (const Place& place : places)
     to.push_back(static_cast<std::size_t>(std::lower_bound(last.begin(), last.end(), place) - last.begin()));
@@ -222,7 +222,7 @@ std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int
 }
 
 DistributedCells Redistribution::send_back(const DistributedCells& cells) {
-  Post::Letters letters;
+  Mailbox::Letters letters;
   std::size_t begin = 0;
   for (std::size_t rank = 0; rank < received_.size(); ++rank) {
     const std::size_t end = begin + received_[rank];

@@ -6,7 +6,7 @@
 #include <powercell/distributed.hpp>
 #include <vector>
 
-#include "lib/base/post.hpp"
+#include "lib/base/mailbox.hpp"
 #include "lib/domain/period.hpp"
 #include "lib/exchange/checks.hpp"
 
@@ -17,9 +17,9 @@ class Redistribution {
  public:
   /// Sends the seeds.
   /// \param own  of this rank, valid
-  /// \param post  with one shard a rank
+  /// \param mailbox  with one shard a rank
   /// \param period  of the domain that the curve goes through, null if it is not periodic
-  Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post,
+  Redistribution(const ShardSeeds& own, int dimension, int threads, Mailbox& mailbox,
                  const Period* period = nullptr);
 
   /// The seeds to compute on this rank; valid as long as this.
@@ -31,12 +31,12 @@ class Redistribution {
   std::uint64_t bytes() const { return bytes_; }
 
  private:
-  Post::Letters deliver(Post::Letters letters);
+  Mailbox::Letters deliver(Mailbox::Letters letters);
   /// The ranks that the seeds go to.
   std::vector<std::size_t> destinations(const ShardSeeds& own, int threads, const Period* period);
 
   int dimension_;
-  Post& post_;
+  Mailbox& mailbox_;
   std::vector<std::vector<std::size_t>> given_;  // by rank that they went to: indices of the seeds given
   std::vector<std::size_t> received_;            // by rank that they came from: the number of seeds here
   std::vector<std::uint64_t> ids_;

@@ -40,12 +40,12 @@ Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& se
   for (const std::uint32_t i : own_.duplicates()) measures_.status[i] = SeedStatus::duplicate;
 }
 
-void Shard::set_hidden_aside(const Setup& setup) {
+void Shard::set_hidden_aside(const DiagramSetup& setup) {
   own_.set_hidden_aside(setup);
   std::erase_if(open_, [this](Handle cell) { return own_.is_hidden(cell); });
 }
 
-void Shard::meet(std::shared_ptr<const FirstOutlines> first) {
+void Shard::meet(std::shared_ptr<const FirstCoarseTrees> first) {
   others_.meet(std::move(first));
   near_parts_ = near_shards(own_.in_tree(), others_, moves_);
 }
@@ -240,18 +240,18 @@ void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> han
   if (waiting_for_.size() > before) waiting_.push_back({self, waiting_for_.size(), postponed});
 }
 
-std::map<int, Rim> Shard::rims() const {
-  std::map<int, Rim> rims;
+std::map<int, BoundaryLeaves> Shard::boundaries() const {
+  std::map<int, BoundaryLeaves> boundaries;
   for (const auto& [shard, part] : near_parts_) {
-    Rim rim = own_.rim(others_.rest_of(shard), moves_);
-    if (rim.leaves() > 0) rims.emplace(shard, std::move(rim));
+    BoundaryLeaves boundary = own_.boundary(others_.unsent_of(shard), moves_);
+    if (boundary.leaves() > 0) boundaries.emplace(shard, std::move(boundary));
   }
-  return rims;
+  return boundaries;
 }
 
 void Shard::take(int from, Halo&& halo) {
   take_seeds(halo.id, halo.seed);
-  others_.take_rest(from, std::move(halo.rest));
+  others_.take_unsent(from, std::move(halo.unsent));
 }
 
 void Shard::take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows) {
@@ -262,7 +262,7 @@ void Shard::take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<
 
 void Shard::take(int from, Reply&& reply) {
   take_seeds(reply.id, reply.seed);
-  if (reply.outline.levels() > 0) take(from, std::move(reply.outline));
+  if (reply.coarse_tree.levels() > 0) take(from, std::move(reply.coarse_tree));
   const std::vector<Vertex*>& asked = asked_of_.at(from);
   for (std::size_t v = 0; v < asked.size(); ++v)
     if (reply.found[v] != 0) asked[v]->found = true;
@@ -313,8 +313,8 @@ void Shard::reopen() {
   all_needed_ = !open_.empty();
 }
 
-std::map<int, Twins> Shard::twins() const {
-  std::map<int, Twins> questions;
+std::map<int, Duplicates> Shard::duplicates() const {
+  std::map<int, Duplicates> questions;
   for (Handle cell = 0; cell < own_.size(); ++cell) {
     if (measures_.status[cell] != SeedStatus::hidden) continue;
     const double* const row = own_.wrapped_row(cell);
@@ -323,16 +323,16 @@ std::map<int, Twins> Shard::twins() const {
     };
     others_.visit(open, [&](int shard) {
       if (!may_contain(others_.all_of(shard), row)) return true;
-      Twins& twins = questions[shard];
-      twins.id.push_back(own_.id(cell));
-      twins.seed.insert(twins.seed.end(), row, row + width_);
+      Duplicates& duplicates = questions[shard];
+      duplicates.id.push_back(own_.id(cell));
+      duplicates.seed.insert(duplicates.seed.end(), row, row + width_);
       return true;
     });
   }
   return questions;
 }
 
-void Shard::mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>& better) {
+void Shard::mark_duplicates(const Duplicates& asked, const std::vector<std::uint8_t>& better) {
   std::size_t at = 0;
   for (std::size_t k = 0; k < better.size(); ++k) {
     while (own_.id(at) != asked.id[k]) ++at;

@@ -9,10 +9,10 @@
 
 #include "lib/base/threads.hpp"
 #include "lib/diagram/state.hpp"
+#include "lib/exchange/boundary_leaves.hpp"
 #include "lib/exchange/cell_vertices.hpp"
 #include "lib/exchange/other_shards.hpp"
 #include "lib/exchange/own_seeds.hpp"
-#include "lib/exchange/rim.hpp"
 
 namespace powercell::exchange {
 
@@ -28,12 +28,12 @@ struct ShardCells {
 /// All shards take the same steps, one after the other or each on a machine of its own:
 ///
 ///     set_hidden_aside(), which may be left out; meet() the boxes of the seeds of all
-///     send near_parts(), answer them by OwnSeeds::outline(), take() the outlines
-///     send rims(), answer them by OwnSeeds::near(), take() the halos; this saves rounds and may be left out
-///     while some shard has open cells:
+///     send near_parts(), answer them by OwnSeeds::coarse tree(), take() the coarse trees
+///     send boundaries(), answer them by OwnSeeds::near(), take() the halos; this saves rounds and may be
+///     left out while some shard has open cells:
 ///       while some shard has: clip(); send the requests, answer() them, take() the replies; settle()
 ///       send take_hidden(), forget() what comes; reopen()
-///     send twins(), answer them by better_twins(), mark_duplicates(); take_cells()
+///     send duplicates(), answer them by better_duplicates(), mark_duplicates(); take_cells()
 class Shard {
  public:
   /// \param number  among all shards
@@ -51,13 +51,13 @@ class Shard {
   /// Closes the cells of seeds that are hidden by others of the shard, as far as this is known without
   /// clipping.
   /// \throw Error as OwnSeeds::set_hidden_aside
-  void set_hidden_aside(const Setup& setup);
-  void meet(std::shared_ptr<const FirstOutlines> first);
-  /// Questions to the shards of some numbers for their outlines.
+  void set_hidden_aside(const DiagramSetup& setup);
+  void meet(std::shared_ptr<const FirstCoarseTrees> first);
+  /// Questions to the shards of some numbers for their coarse trees.
   const std::map<int, NearPart>& near_parts() const { return near_parts_; }
-  void take(int from, PackedTree&& outline) { others_.take_outline(from, std::move(outline)); }
+  void take(int from, PackedTree&& coarse_tree) { others_.take_coarse_tree(from, std::move(coarse_tree)); }
   /// Questions to the shards of some numbers which of their seeds are near.
-  std::map<int, Rim> rims() const;
+  std::map<int, BoundaryLeaves> boundaries() const;
   void take(int from, Halo&& halo);
 
   /// Clips the open cells among all seeds at hand.
@@ -74,9 +74,9 @@ class Shard {
   /// Opens the cells again that have a wall with a hidden seed: one whose cell is flat.
   void reopen();
 
-  /// Hidden seeds that may have twins in the shards of some numbers.
-  std::map<int, Twins> twins() const;
-  void mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>& better);
+  /// Hidden seeds that may have duplicates in the shards of some numbers.
+  std::map<int, Duplicates> duplicates() const;
+  void mark_duplicates(const Duplicates& asked, const std::vector<std::uint8_t>& better);
 
   /// To be called once, at the end.
   ShardCells take_cells(double domain_measure);

@@ -8,9 +8,9 @@ namespace powercell::exchange {
 namespace {
 
 /// Between shards that are all here.
-class LocalPost : public Post {
+class LocalMailbox : public Mailbox {
  public:
-  explicit LocalPost(std::size_t shards) : shards_(static_cast<int>(shards)) {}
+  explicit LocalMailbox(std::size_t shards) : shards_(static_cast<int>(shards)) {}
 
   int shards() const override { return shards_; }
   int first() const override { return 0; }
@@ -32,12 +32,12 @@ class LocalPost : public Post {
 }  // namespace
 
 ShardedDiagram compute_shards(const Device& device, const Domain& domain, std::span<const ShardSeeds> shards,
-                              Options options, const Guess& guess) {
+                              Options options, const Estimate& estimate) {
   require_supported(domain, options);
   Diagram::State diagram(device, domain, options);
-  LocalPost post(shards.size());
-  require_valid(diagram.setup, shards, post);
-  Steps steps(diagram, shards, post, guess);
+  LocalMailbox mailbox(shards.size());
+  require_valid(diagram.setup, shards, mailbox);
+  Steps steps(diagram, shards, mailbox, estimate);
   ShardedDiagram result;
   result.shards = steps.run();
   result.report = steps.report();

@@ -22,6 +22,6 @@ struct ShardedDiagram {
 ///        Options::certify), invalid_argument (sizes, an id that is there twice), invalid_seed (names the
 ///        seed by its id), and as Diagram
 ShardedDiagram compute_shards(const Device& device, const Domain& domain, std::span<const ShardSeeds> shards,
-                              Options options = {}, const Guess& guess = &Shard::rims);
+                              Options options = {}, const Estimate& estimate = &Shard::boundaries);
 
 }  // namespace powercell::exchange

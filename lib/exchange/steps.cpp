@@ -6,93 +6,98 @@
 namespace powercell::exchange {
 namespace {
 
-Bytes packed_outline(const PackedTree& outline) {
-  const std::vector<std::uint64_t> sizes{static_cast<std::uint64_t>(outline.dimension), outline.seeds};
-  return packed(sizes, outline.level_offset, outline.low, outline.high, outline.weight);
+Bytes packed_coarse_tree(const PackedTree& coarse_tree) {
+  const std::vector<std::uint64_t> sizes{static_cast<std::uint64_t>(coarse_tree.dimension),
+                                         coarse_tree.seeds};
+  return packed(sizes, coarse_tree.level_offset, coarse_tree.low, coarse_tree.high, coarse_tree.weight);
 }
 
-PackedTree outline_from(const Bytes& bytes) {
-  PackedTree outline;
+PackedTree coarse_tree_from(const Bytes& bytes) {
+  PackedTree coarse_tree;
   std::vector<std::uint64_t> sizes;
-  unpack(bytes, sizes, outline.level_offset, outline.low, outline.high, outline.weight);
-  outline.dimension = static_cast<int>(sizes.at(0));
-  outline.seeds = sizes.at(1);
-  return outline;
+  unpack(bytes, sizes, coarse_tree.level_offset, coarse_tree.low, coarse_tree.high, coarse_tree.weight);
+  coarse_tree.dimension = static_cast<int>(sizes.at(0));
+  coarse_tree.seeds = sizes.at(1);
+  return coarse_tree;
 }
 
 }  // namespace
 
-Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post, const Guess& guess)
-    : diagram_(diagram), post_(post) {
-  const int first = post.first(), dimension = diagram.setup.domain.dimension();
+Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Mailbox& mailbox,
+             const Estimate& estimate)
+    : diagram_(diagram), mailbox_(mailbox) {
+  const int first = mailbox.first(), dimension = diagram.setup.domain.dimension();
   shards_.reserve(here.size());
   for (const ShardSeeds& seeds : here)
     shards_.emplace_back(first + static_cast<int>(shards_.size()), seeds.ids, seeds.seeds, dimension,
                          diagram.setup.options.threads, diagram.setup.domain.mesh().period.get());
   for (Shard& shard : shards_) shard.set_hidden_aside(diagram.setup);
   share_boxes();
-  fetch_outlines();
-  fetch_rims(guess);
+  fetch_coarse_trees();
+  fetch_boundaries(estimate);
 }
 
 void Steps::share_boxes() {
   std::vector<Bytes> own;
   for (const Shard& shard : shards_) {
     const PackedTree box = shard.own().box();
-    report_.outlines += outline_bytes(box) * (static_cast<std::size_t>(post_.shards()) - 1);
-    own.push_back(packed_outline(box));
+    report_.outlines += coarse_tree_bytes(box) * (static_cast<std::size_t>(mailbox_.shards()) - 1);
+    own.push_back(packed_coarse_tree(box));
   }
   std::vector<PackedTree> boxes;
-  for (const Bytes& of_shard : post_.share(std::move(own))) boxes.push_back(outline_from(of_shard));
-  const auto outlines = std::make_shared<FirstOutlines>(std::move(boxes), diagram_.setup.domain.dimension());
-  for (Shard& shard : shards_) shard.meet(outlines);
+  for (const Bytes& of_shard : mailbox_.share(std::move(own))) boxes.push_back(coarse_tree_from(of_shard));
+  const auto coarse_trees =
+      std::make_shared<FirstCoarseTrees>(std::move(boxes), diagram_.setup.domain.dimension());
+  for (Shard& shard : shards_) shard.meet(coarse_trees);
 }
 
-void Steps::fetch_outlines() {
-  std::vector<Post::Letters> letters(shards_.size());
+void Steps::fetch_coarse_trees() {
+  std::vector<Mailbox::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (const auto& [to, part] : shards_[s].near_parts()) letters[s][to] = packed(std::vector{part});
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (auto& [from, letter] : letters[s]) {
       std::vector<NearPart> part;
       unpack(letter, part);
-      const PackedTree outline = shards_[s].own().outline(from, part.at(0));
-      report_.outlines += sizeof(NearPart) + outline_bytes(outline);
-      letter = packed_outline(outline);
+      const PackedTree coarse_tree = shards_[s].own().coarse_tree(from, part.at(0));
+      report_.outlines += sizeof(NearPart) + coarse_tree_bytes(coarse_tree);
+      letter = packed_coarse_tree(coarse_tree);
     }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
-    for (auto& [from, letter] : letters[s]) shards_[s].take(from, outline_from(std::exchange(letter, {})));
+    for (auto& [from, letter] : letters[s])
+      shards_[s].take(from, coarse_tree_from(std::exchange(letter, {})));
 }
 
-void Steps::fetch_rims(const Guess& guess) {
-  std::vector<Post::Letters> letters(shards_.size());
+void Steps::fetch_boundaries(const Estimate& estimate) {
+  std::vector<Mailbox::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
-    for (const auto& [to, rim] : guess(shards_[s]))
-      letters[s][to] = packed(rim.spacing, rim.seed, std::vector{rim.all}, std::vector{rim.lightest});
-  letters = post_.deliver(std::move(letters));
+    for (const auto& [to, boundary] : estimate(shards_[s]))
+      letters[s][to] =
+          packed(boundary.spacing, boundary.seed, std::vector{boundary.all}, std::vector{boundary.lightest});
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (auto& [from, letter] : letters[s]) {
-      Rim rim;
+      BoundaryLeaves boundary;
       std::vector<std::uint64_t> all;
       std::vector<double> lightest;
-      unpack(letter, rim.spacing, rim.seed, all, lightest);
-      rim.all = all.at(0);
-      rim.lightest = lightest.at(0);
-      const Halo halo = shards_[s].own().near(from, rim);
-      report_.requests += rim.bytes();
+      unpack(letter, boundary.spacing, boundary.seed, all, lightest);
+      boundary.all = all.at(0);
+      boundary.lightest = lightest.at(0);
+      const Halo halo = shards_[s].own().near(from, boundary);
+      report_.requests += boundary.bytes();
       report_.replies += halo.bytes();
-      report_.outlines += outline_bytes(halo.rest);
-      letter = packed(halo.id, halo.seed, packed_outline(halo.rest));
+      report_.outlines += coarse_tree_bytes(halo.unsent);
+      letter = packed(halo.id, halo.seed, packed_coarse_tree(halo.unsent));
     }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (auto& [from, letter] : letters[s]) {
       Halo halo;
-      Bytes rest;
-      unpack(std::exchange(letter, {}), halo.id, halo.seed, rest);
-      halo.rest = outline_from(rest);
+      Bytes unsent;
+      unpack(std::exchange(letter, {}), halo.id, halo.seed, unsent);
+      halo.unsent = coarse_tree_from(unsent);
       shards_[s].take(from, std::move(halo));
     }
 }
@@ -117,12 +122,12 @@ std::vector<ShardCells> Steps::run() {
 bool Steps::any_open() {
   std::vector<std::vector<std::uint64_t>> open;
   for (const Shard& shard : shards_) open.push_back({shard.open_cells()});
-  const std::vector<std::uint64_t> sum = post_.sums(open);
+  const std::vector<std::uint64_t> sum = mailbox_.sums(open);
   return !sum.empty() && sum[0] > 0;
 }
 
-Post::Letters Steps::answers(std::size_t s, Post::Letters& requests) {
-  Post::Letters replies;
+Mailbox::Letters Steps::answers(std::size_t s, Mailbox::Letters& requests) {
+  Mailbox::Letters replies;
   for (auto& [from, letter] : requests) {
     Request request;
     unpack(std::exchange(letter, {}), request.cell, request.end, request.vertex);
@@ -130,27 +135,27 @@ Post::Letters Steps::answers(std::size_t s, Post::Letters& requests) {
     report_.vertices += reply.found.size();
     report_.requests += request.bytes();
     report_.replies += reply.bytes();
-    report_.outlines += outline_bytes(reply.outline);
-    replies[from] = packed(reply.id, reply.seed, reply.found, packed_outline(reply.outline));
+    report_.outlines += coarse_tree_bytes(reply.coarse_tree);
+    replies[from] = packed(reply.id, reply.seed, reply.found, packed_coarse_tree(reply.coarse_tree));
   }
   return replies;
 }
 
 void Steps::round() {
   ++report_.rounds;
-  std::vector<Post::Letters> letters(shards_.size());
+  std::vector<Mailbox::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (const auto& [to, request] : shards_[s].clip(diagram_))
       letters[s][to] = packed(request.cell, request.end, request.vertex);
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s) letters[s] = answers(s, letters[s]);
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s) {
     for (const auto& [from, letter] : letters[s]) {
       Reply reply;
-      Bytes outline;
-      unpack(letter, reply.id, reply.seed, reply.found, outline);
-      reply.outline = outline_from(outline);
+      Bytes coarse_tree;
+      unpack(letter, reply.id, reply.seed, reply.found, coarse_tree);
+      reply.coarse_tree = coarse_tree_from(coarse_tree);
       shards_[s].take(from, std::move(reply));
     }
     shards_[s].settle();
@@ -158,13 +163,13 @@ void Steps::round() {
 }
 
 void Steps::end_hidden() {
-  std::vector<Post::Letters> letters(shards_.size());
+  std::vector<Mailbox::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (const auto& [to, hidden] : shards_[s].own().take_hidden()) {
       report_.ending += bytes_of(hidden);
       letters[s][to] = packed(hidden);
     }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   std::vector<std::uint64_t> hidden;
   for (std::size_t s = 0; s < shards_.size(); ++s) {
     for (const auto& [from, letter] : letters[s]) {
@@ -176,26 +181,26 @@ void Steps::end_hidden() {
 }
 
 void Steps::mark_duplicates() {
-  std::vector<std::map<int, Twins>> questions;
-  std::vector<Post::Letters> letters;
+  std::vector<std::map<int, Duplicates>> questions;
+  std::vector<Mailbox::Letters> letters;
   for (const Shard& shard : shards_) {
-    questions.push_back(shard.twins());
-    Post::Letters& of_shard = letters.emplace_back();
-    for (const auto& [to, twins] : questions.back()) {
-      report_.ending += twins.bytes();
-      of_shard[to] = packed(twins.id, twins.seed);
+    questions.push_back(shard.duplicates());
+    Mailbox::Letters& of_shard = letters.emplace_back();
+    for (const auto& [to, duplicates] : questions.back()) {
+      report_.ending += duplicates.bytes();
+      of_shard[to] = packed(duplicates.id, duplicates.seed);
     }
   }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (auto& [from, letter] : letters[s]) {
-      Twins twins;
-      unpack(letter, twins.id, twins.seed);
-      const std::vector<std::uint8_t> better = shards_[s].own().better_twins(twins);
+      Duplicates duplicates;
+      unpack(letter, duplicates.id, duplicates.seed);
+      const std::vector<std::uint8_t> better = shards_[s].own().better_duplicates(duplicates);
       report_.ending += bytes_of(better);
       letter = packed(better);
     }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   std::vector<std::uint8_t> better;
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (const auto& [from, letter] : letters[s]) {

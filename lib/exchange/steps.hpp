@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/base/post.hpp"
+#include "lib/base/mailbox.hpp"
 #include "lib/exchange/checks.hpp"
 #include "lib/exchange/shard.hpp"
 
@@ -16,16 +16,17 @@ namespace powercell::exchange {
 
 using powercell::ExchangeReport;
 
-/// The rims that a shard asks others with before cells are clipped, by their numbers. They decide no result.
-using Guess = std::function<std::map<int, Rim>(const Shard&)>;
+/// The boundaries that a shard asks others with before cells are clipped, by their numbers. They decide no
+/// result.
+using Estimate = std::function<std::map<int, BoundaryLeaves>(const Shard&)>;
 
 /// Takes the steps of Shard for all shards here, one after the other.
 class Steps {
  public:
   /// \param diagram  in the domain; its seeds and selection are replaced
   /// \param here     valid seeds (require_valid) of each shard that is here
-  Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post,
-        const Guess& guess = &Shard::rims);
+  Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Mailbox& mailbox,
+        const Estimate& estimate = &Shard::boundaries);
 
   /// \return the cells of each shard here
   /// \throw Error as Diagram
@@ -36,10 +37,10 @@ class Steps {
  private:
   /// Tells all shards in which box the seeds of each are.
   void share_boxes();
-  /// Fetches finer outlines of near shards.
-  void fetch_outlines();
-  /// Fetches the seeds that cells at the rims of shards need, as far as positions tell.
-  void fetch_rims(const Guess& guess);
+  /// Fetches finer coarse trees of near shards.
+  void fetch_coarse_trees();
+  /// Fetches the seeds that cells at the boundaries of shards need, as far as positions tell.
+  void fetch_boundaries(const Estimate& estimate);
   /// Whether some shard, wherever it is, has open cells.
   bool any_open();
   void round();
@@ -47,10 +48,10 @@ class Steps {
   void end_hidden();
   void mark_duplicates();
   /// Of shard `s` here to the requests of others, whose letters are emptied on the way.
-  Post::Letters answers(std::size_t s, Post::Letters& requests);
+  Mailbox::Letters answers(std::size_t s, Mailbox::Letters& requests);
 
   Diagram::State& diagram_;
-  Post& post_;
+  Mailbox& mailbox_;
   std::vector<Shard> shards_;
   ExchangeReport report_;
 };

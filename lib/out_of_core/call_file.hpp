@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lib/base/post.hpp"
+#include "lib/base/mailbox.hpp"
 #include "lib/out_of_core/files.hpp"
 
 namespace powercell::out_of_core {

@@ -12,24 +12,25 @@
 
 #include "lib/base/threads.hpp"
 #include "lib/exchange/answers.hpp"
-#include "lib/exchange/outline.hpp"
-#include "lib/exchange/rest.hpp"
+#include "lib/exchange/coarse_tree.hpp"
+#include "lib/exchange/unsent.hpp"
 
 namespace powercell::out_of_core {
 namespace {
 
-/// Nodes of an outline far from the piece, and of that of the piece itself.
-constexpr std::size_t outline_nodes = 512;
-/// What is nearer to a box of the piece's outline than this part of its edge is outlined leaf by leaf.
+/// Nodes of an coarse tree far from the piece, and of that of the piece itself.
+constexpr std::size_t coarse_nodes = 512;
+/// What is nearer to a box of the piece's coarse tree than this part of its edge is in a coarse tree leaf by
+/// leaf.
 constexpr double near_part = 0.125;
 
-/// The outline of a piece, with the distance up to which seeds are near in the place of the weights.
-PackedTree rim_of(const PackedTree& own) {
-  PackedTree rim = exchange::outline_of(own, outline_nodes);
-  const auto d = static_cast<std::size_t>(rim.dimension);
-  for (std::uint32_t node = 0; node < rim.weight.size(); ++node)
-    rim.weight[node] = near_part * exchange::longest_edge(exchange::box_of(rim, node), d);
-  return rim;
+/// The coarse tree of a piece, with the distance up to which seeds are near in the place of the weights.
+PackedTree boundary_of(const PackedTree& own) {
+  PackedTree boundary = exchange::coarse_tree_of(own, coarse_nodes);
+  const auto d = static_cast<std::size_t>(boundary.dimension);
+  for (std::uint32_t node = 0; node < boundary.weight.size(); ++node)
+    boundary.weight[node] = near_part * exchange::longest_edge(exchange::box_of(boundary, node), d);
+  return boundary;
 }
 
 /// Seeds that each piece gets, at most. One whose weight is far above those of others would else be asked for
@@ -78,22 +79,22 @@ OtherSeeds::OtherSeeds(const Store& store, const Statuses& statuses, int threads
       is_sent_(store.size()) {}
 
 template <class Near>
-PackedTree OtherSeeds::outline_without(const std::vector<std::uint32_t>& ranks, const Near& near) const {
+PackedTree OtherSeeds::coarse_tree_without(const std::vector<std::uint32_t>& ranks, const Near& near) const {
   std::vector<std::uint32_t> out(last_ - first_);
   std::iota(out.begin(), out.end(), static_cast<std::uint32_t>(first_));
   const auto middle = std::lower_bound(ranks.begin(), ranks.end(), first_);
   out.insert(out.begin(), ranks.begin(), middle);
   out.insert(out.end(), middle, ranks.end());
   const exchange::TreeSeeds seeds = store_.seeds();
-  const std::size_t level = exchange::outline_level(seeds.tree, outline_nodes);
-  return exchange::outline_of_rest(seeds, exchange::level_cut(seeds.tree, level), near, out);
+  const std::size_t level = exchange::coarse_level(seeds.tree, coarse_nodes);
+  return exchange::coarse_tree_of_unsent(seeds, exchange::level_cut(seeds.tree, level), near, out);
 }
 
 PackedTree OtherSeeds::begin(std::size_t piece, const PackedTree& own) {
   for (const std::uint32_t rank : sent_) is_sent_[rank] = 0;
   sent_.clear();
   std::tie(first_, last_) = store_.ranks(piece);
-  return outline_without({}, rim_of(own));
+  return coarse_tree_without({}, boundary_of(own));
 }
 
 void OtherSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows) {
@@ -107,17 +108,17 @@ void OtherSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::
   rows.push_back(seeds.weights[rank]);
 }
 
-exchange::Halo OtherSeeds::near(const exchange::Rim& rim) {
+exchange::Halo OtherSeeds::near(const exchange::BoundaryLeaves& boundary) {
   exchange::Halo halo;
   const std::vector<std::uint32_t> likely =
-      exchange::ranks_near(store_.seeds(), rim, threads_, {first_, last_});
+      exchange::ranks_near(store_.seeds(), boundary, threads_, {first_, last_});
   std::vector<std::uint32_t> ranks;
   std::set_union(likely.begin(), likely.end(), heaviest_.begin(), heaviest_.end(), std::back_inserter(ranks));
   std::erase_if(ranks, [this](std::uint32_t rank) { return is_own(rank); });
   for (const std::uint32_t rank : ranks)
     if (!statuses_.is_hidden(store_.id(rank))) send(rank, halo.id, halo.seed);
   // Hidden seeds cut nothing, so they need no box either.
-  halo.rest = outline_without(ranks, rim);
+  halo.unsent = coarse_tree_without(ranks, boundary);
   return halo;
 }
 

@@ -32,20 +32,20 @@ class OtherSeeds {
 
   /// Answers are for a piece from here on.
   /// \param own  the tree of its seeds
-  /// \return an outline of the seeds of the others, finer near those of the piece
+  /// \return an coarse tree of the seeds of the others, finer near those of the piece
   PackedTree begin(std::size_t piece, const PackedTree& own);
-  /// The seeds near the rim of the piece, and the heaviest of all, which may reach it from anywhere.
+  /// The seeds near the boundary of the piece, and the heaviest of all, which may reach it from anywhere.
   /// \pre none were sent since begin()
-  exchange::Halo near(const exchange::Rim& rim);
+  exchange::Halo near(const exchange::BoundaryLeaves& boundary);
   exchange::Reply answer(const exchange::Request& request);
   std::uint64_t sent() const { return sent_count_; }  ///< in all
 
  private:
   bool is_own(std::size_t rank) const { return first_ <= rank && rank < last_; }
   void send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows);
-  /// An outline of all but the seeds of the piece and those of some ranks of others, ascending.
+  /// An coarse tree of all but the seeds of the piece and those of some ranks of others, ascending.
   template <class Near>
-  PackedTree outline_without(const std::vector<std::uint32_t>& ranks, const Near& near) const;
+  PackedTree coarse_tree_without(const std::vector<std::uint32_t>& ranks, const Near& near) const;
 
   const Store& store_;
   const Statuses& statuses_;

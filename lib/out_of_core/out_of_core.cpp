@@ -194,9 +194,9 @@ class Computation {
     std::iota(ranks.begin(), ranks.end(), std::uint64_t{first});
     Shard shard(0, ranks, store.seeds_of(piece), source_.dimension, options_.diagram.threads,
                 diagram_.setup.domain.mesh().period.get(), options_.walls);
-    shard.meet(std::make_shared<exchange::FirstOutlines>(
+    shard.meet(std::make_shared<exchange::FirstCoarseTrees>(
         std::vector<PackedTree>{{}, others.begin(piece, shard.own().tree())}, source_.dimension));
-    for (const auto& [to, rim] : shard.rims()) shard.take(to, others.near(rim));
+    for (const auto& [to, boundary] : shard.boundaries()) shard.take(to, others.near(boundary));
     while (shard.open_cells() > 0) {
       while (shard.open_cells() > 0) round(shard, others);
       shard.reopen();

@@ -15,7 +15,7 @@ constexpr std::uint64_t bytes_of_piece_seed[2][2] = {{850, 1500}, {1700, 3500}};
 constexpr std::uint64_t bytes_of_walls[2] = {80, 300};
 /// Of programs of the device and buffers that do not depend on the number of seeds.
 constexpr std::uint64_t bytes_of_programs = std::uint64_t{256} << 20;
-/// Smaller pieces would spend more time on their rims than on themselves.
+/// Smaller pieces would spend more time on their boundaries than on themselves.
 constexpr std::uint64_t least_piece = 16384, usual_piece = std::uint64_t{1} << 22;
 
 std::string in_mebibytes(std::uint64_t bytes) {

@@ -12,7 +12,7 @@
 #include "lib/base/background.hpp"
 #include "lib/base/positions.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/diagram/input.hpp"
+#include "lib/diagram/given_seeds.hpp"
 #include "lib/out_of_core/store.hpp"
 #include "lib/seeds/hilbert.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -37,7 +37,7 @@ struct Survey {
 /// Divides seeds again and again until they fit into memory.
 class Sorter {
  public:
-  Sorter(const SeedSource& source, const Setup& setup, std::uint64_t piece, const LockedFolder& folder,
+  Sorter(const SeedSource& source, const DiagramSetup& setup, std::uint64_t piece, const LockedFolder& folder,
          Traffic& traffic)
       : source_(source),
         setup_(setup),
@@ -270,7 +270,7 @@ class Sorter {
   }
 
   const SeedSource& source_;
-  const Setup& setup_;
+  const DiagramSetup& setup_;
   std::size_t d_;
   std::uint64_t piece_;
   const LockedFolder& folder_;
@@ -282,8 +282,8 @@ class Sorter {
 
 }  // namespace
 
-void sort_seeds(const SeedSource& source, const Setup& setup, std::uint64_t piece, const LockedFolder& folder,
-                Traffic& traffic) {
+void sort_seeds(const SeedSource& source, const DiagramSetup& setup, std::uint64_t piece,
+                const LockedFolder& folder, Traffic& traffic) {
   Sorter(source, setup, piece, folder, traffic).run();
 }
 

@@ -22,7 +22,7 @@ struct Traffic {
 /// \param piece  the most seeds of one
 /// \throw Error invalid_seed (the one that a diagram of all would name), write_failed, and what the source
 ///        throws
-void sort_seeds(const SeedSource& source, const Setup& setup, std::uint64_t piece, const LockedFolder& folder,
-                Traffic& traffic);
+void sort_seeds(const SeedSource& source, const DiagramSetup& setup, std::uint64_t piece,
+                const LockedFolder& folder, Traffic& traffic);
 
 }  // namespace powercell::out_of_core

@@ -8,7 +8,7 @@
 #include "kernels/layout.h"
 #include "lib/base/compiler.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/clip/exact_planes.hpp"
+#include "lib/cell/exact_planes.hpp"
 #include "lib/domain/outline.hpp"
 
 namespace powercell::solid {

@@ -1,7 +1,7 @@
 // Cells of seeds on ranks that are threads, with the diagram of all seeds as the oracle.
 #include <doctest/doctest.h>
 
-#include "lib/base/rank_post.hpp"
+#include "lib/base/rank_mailbox.hpp"
 #include "lib/exchange/redistribution.hpp"
 #include "tests/distributed/ranks.hpp"
 
@@ -146,9 +146,9 @@ TEST_CASE("ranks: redistribution fetches less than seeds shared out at random, a
     const std::vector<exchange::ShardSeeds> view = given.view();
     std::vector<std::size_t> sizes(5);
     for (const std::exception_ptr& thrown : on_ranks(5, [&](Communicator& communicator) {
-           RankPost post(communicator);
+           RankMailbox mailbox(communicator);
            const auto own = static_cast<std::size_t>(communicator.rank());
-           sizes[own] = exchange::Redistribution(view[own], 3, 1, post).seeds().ids.size();
+           sizes[own] = exchange::Redistribution(view[own], 3, 1, mailbox).seeds().ids.size();
          }))
       REQUIRE(!thrown);
     const double share = std::accumulate(sizes.begin(), sizes.end(), 0.0) / 5;

@@ -87,7 +87,7 @@ TEST_CASE("answers: a seed is sent once, and only if it cuts or touches on the w
       y[k] = radius * static_cast<double>(request.vertex.back());
     }
     const exchange::Reply reply = own.answer(7, request);
-    CHECK((reply.outline.levels() > 0) == (round == 0));  // who has one needs no other
+    CHECK((reply.coarse_tree.levels() > 0) == (round == 0));  // who has one needs no other
     REQUIRE(reply.found.size() == 1);
     REQUIRE(reply.id.size() == reply.found[0]);
     for (const std::uint64_t id : reply.id) {
@@ -178,25 +178,25 @@ TEST_CASE("answers: what may meet a cell may meet the farthest of the cells in a
   CHECK(missed > 100);
 }
 
-TEST_CASE("answers: the outline of a tree admits what the tree does") {
+TEST_CASE("answers: the coarse tree of a tree admits what the tree does") {
   INFO(replay_hint());
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::cluster, WeightRange::W1, 5000, 2, random);
   std::vector<std::uint64_t> ids(seeds.size());
   std::iota(ids.begin(), ids.end(), std::uint64_t{0});
   const exchange::OwnSeeds own(ids, seeds.view(), 2, 1);
-  const PackedTree outline = exchange::outline_of(own.tree(), 100);
-  CHECK(outline.levels() == own.tree().levels() - 1);
-  CHECK(outline.level_offset[1] <= 100);
+  const PackedTree coarse_tree = exchange::coarse_tree_of(own.tree(), 100);
+  CHECK(coarse_tree.levels() == own.tree().levels() - 1);
+  CHECK(coarse_tree.level_offset[1] <= 100);
   for (std::size_t i = 0; i < seeds.size(); i += 50) {
     const std::vector<double> row = row_of(seeds, i);
-    CHECK(exchange::may_contain(outline, row.data()));
+    CHECK(exchange::may_contain(coarse_tree, row.data()));
     CutTest test(row.data(), 0.01, 2);
     const Point y{random.uniform(-0.01, 0.01), 0, 0};
     test.move_to(y);
-    const bool is_cut = exchange::may_cut(outline, test);
+    const bool is_cut = exchange::may_cut(coarse_tree, test);
     for (std::size_t j = 0; j < seeds.size(); ++j)
       if (power(seeds, i, y, j) <= power(seeds, i, y, i)) CHECK(is_cut);
   }
-  CHECK(exchange::outline_of(own.tree(), 100000).level_offset == own.tree().level_offset);
+  CHECK(exchange::coarse_tree_of(own.tree(), 100000).level_offset == own.tree().level_offset);
 }

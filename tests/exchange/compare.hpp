@@ -75,10 +75,11 @@ void check_cells(Diagram& diagram, const std::vector<std::uint64_t>& ids, const 
 }
 
 /// The cells of all shards are those of one diagram.
-inline exchange::ExchangeReport check_shares(Diagram& diagram, const Shares& shares,
-                                             const exchange::Guess& guess = &exchange::Shard::rims) {
+inline exchange::ExchangeReport check_shares(
+    Diagram& diagram, const Shares& shares,
+    const exchange::Estimate& estimate = &exchange::Shard::boundaries) {
   const exchange::ShardedDiagram sharded =
-      exchange::compute_shards(diagram.device(), diagram.domain(), shares.view(), {}, guess);
+      exchange::compute_shards(diagram.device(), diagram.domain(), shares.view(), {}, estimate);
   REQUIRE(sharded.shards.size() == shares.ids.size());
   for (std::size_t s = 0; s < shares.ids.size(); ++s) check_cells(diagram, shares.ids[s], sharded.shards[s]);
   CHECK(sharded.report.fetched >= sharded.report.neighbors);

@@ -6,15 +6,15 @@
 namespace powercell {
 
 Beyond::Beyond(const std::vector<std::uint32_t>& kept, std::span<const double> positions, std::size_t d,
-               const Numbering& numbers, RankPost& post)
+               const Numbering& numbers, RankMailbox& mailbox)
     : numbers_(numbers),
-      post_(post),
+      mailbox_(mailbox),
       d_(d),
-      rows_(post, kept.size()),
+      rows_(mailbox, kept.size()),
       index_here_(numbers.count()),
       positions_(positions.begin(), positions.end()),
-      from_(static_cast<std::size_t>(post.shards())),
-      to_(static_cast<std::size_t>(post.shards())) {
+      from_(static_cast<std::size_t>(mailbox.shards())),
+      to_(static_cast<std::size_t>(mailbox.shards())) {
   for (std::uint32_t k = 0; k < kept.size(); ++k) index_here_[kept[k]] = k;
 }
 
@@ -30,9 +30,9 @@ void Beyond::meet(std::span<const std::uint64_t> numbers) {
   }
   row_.resize(slot_.size());
   positions_.resize((here() + slot_.size()) * d_);
-  std::vector<Post::Letters> letters(1);
+  std::vector<Mailbox::Letters> letters(1);
   for (const auto& [to, wanted] : unknown) letters[0][to] = packed(wanted);
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (auto& [from, letter] : letters[0]) {
     std::vector<std::uint64_t> wanted, row;
     std::vector<double> position;
@@ -45,7 +45,7 @@ void Beyond::meet(std::span<const std::uint64_t> numbers) {
     }
     letter = packed(row, position);
   }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (const auto& [from, letter] : letters[0]) {
     std::vector<std::uint64_t> row;
     std::vector<double> position;
@@ -60,7 +60,7 @@ void Beyond::meet(std::span<const std::uint64_t> numbers) {
 }
 
 Vector Beyond::values(const Vector& here_values) {
-  std::vector<Post::Letters> letters(1);
+  std::vector<Mailbox::Letters> letters(1);
   std::vector<double> values;
   for (std::size_t rank = 0; rank < to_.size(); ++rank) {
     if (to_[rank].empty()) continue;
@@ -68,7 +68,7 @@ Vector Beyond::values(const Vector& here_values) {
     for (const std::uint32_t k : to_[rank]) values.push_back(here_values[k]);
     letters[0][static_cast<int>(rank)] = packed(values);
   }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   Vector result(static_cast<Eigen::Index>(slot_.size()));
   for (const auto& [from, letter] : letters[0]) {
     unpack(letter, values);

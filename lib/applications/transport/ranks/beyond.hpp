@@ -19,9 +19,9 @@ class Beyond {
   /// All ranks call the constructor, meet() and values().
   /// \param kept       indices, among the seeds of the numbering here, of the n that take part, ascending
   /// \param positions  n x d, of these
-  /// \param numbers, post  kept by reference
+  /// \param numbers, mailbox  kept by reference
   Beyond(const std::vector<std::uint32_t>& kept, std::span<const double> positions, std::size_t d,
-         const Numbering& numbers, RankPost& post);
+         const Numbering& numbers, RankMailbox& mailbox);
 
   /// Makes seeds known, by their numbers, in any order and any number of times.
   void meet(std::span<const std::uint64_t> numbers);
@@ -43,7 +43,7 @@ class Beyond {
 
  private:
   const Numbering& numbers_;
-  RankPost& post_;
+  RankMailbox& mailbox_;
   std::size_t d_;
   Numbering rows_;
   std::vector<std::uint32_t> index_here_;  // by seed of the numbering here

@@ -8,7 +8,7 @@
 #include "lib/applications/transport/ranks/rank_evaluator.hpp"
 #include "lib/applications/transport/ranks/rank_seeds.hpp"
 #include "lib/base/float_environment.hpp"
-#include "lib/base/post.hpp"
+#include "lib/base/mailbox.hpp"
 
 namespace powercell {
 namespace {
@@ -30,14 +30,14 @@ void require_supported(const TransportOptions& options, const Domain& domain) {
         "automatic");
 }
 
-void require_same_call(const TransportOptions& options, double total, Post& post) {
+void require_same_call(const TransportOptions& options, double total, Mailbox& mailbox) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
   require_same({{"the mass of the domain", bits(total)},
                 {"TransportOptions::tolerance", bits(options.tolerance)},
                 {"TransportOptions::max_steps", static_cast<std::uint64_t>(options.max_steps)},
                 {"TransportOptions::linear_residual", bits(options.linear_residual)},
                 {"TransportOptions::rescale", options.rescale ? 1U : 0U}},
-               post);
+               mailbox);
 }
 
 /// What would not come as far as compute_distributed, which refuses the rest.
@@ -80,11 +80,11 @@ TransportResult solve(const OnRanks& ranks, const Device& device, const Domain& 
 
   TransportResult result;
   result.total_mass = domain_mass(transport, domain);
-  require_same_call(transport, result.total_mass, ranks.post);
+  require_same_call(transport, result.total_mass, ranks.mailbox);
   result.target = target_masses(given.masses, n, result.total_mass, transport.rescale, ranks.all, first);
   result.tolerance = transport.tolerance > 0 ? transport.tolerance : default_tolerance;
 
-  const Merging merging(given.seeds.positions, d, ranks.numbers, ranks.post);
+  const Merging merging(given.seeds.positions, d, ranks.numbers, ranks.mailbox);
   const std::vector<std::uint32_t>& kept = merging.kept();
   result.merged = ranks.all.count(n - kept.size());
   const std::vector<double> positions = rows(given.seeds.positions, kept, d);
@@ -107,11 +107,11 @@ TransportResult transport_distributed(Communicator& communicator, DistributedLin
                                       std::span<const double> masses,
                                       const DistributedTransportOptions& options) {
   const FloatEnvironment environment;
-  RankPost post(communicator);
-  return post.together([&] {
-    const RankSeeds all(post);
-    const Numbering numbers(post, seeds.size());
-    return solve({communicator, solver, post, all, numbers}, device, domain, {seeds, masses}, options);
+  RankMailbox mailbox(communicator);
+  return mailbox.together([&] {
+    const RankSeeds all(mailbox);
+    const Numbering numbers(mailbox, seeds.size());
+    return solve({communicator, solver, mailbox, all, numbers}, device, domain, {seeds, masses}, options);
   });
 }
 

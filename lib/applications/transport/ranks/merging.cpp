@@ -26,19 +26,20 @@ struct Meeting {
 
 }  // namespace
 
-Merging::Merging(std::span<const double> positions, std::size_t d, const Numbering& numbers, RankPost& post)
-    : numbers_(numbers), post_(post) {
+Merging::Merging(std::span<const double> positions, std::size_t d, const Numbering& numbers,
+                 RankMailbox& mailbox)
+    : numbers_(numbers), mailbox_(mailbox) {
   const std::vector<std::uint32_t> first_here = first_at_position(positions, d);
   std::map<int, Meeting> sent;
   for (std::size_t i = 0; i < first_here.size(); ++i) {
     if (first_here[i] != i) continue;
-    Meeting& meeting = sent[meeting_place(&positions[i * d], d, post.shards())];
+    Meeting& meeting = sent[meeting_place(&positions[i * d], d, mailbox.shards())];
     meeting.number.push_back(numbers.first() + i);
     meeting.position.insert(meeting.position.end(), &positions[i * d], &positions[i * d] + d);
   }
-  std::vector<Post::Letters> letters(1);
+  std::vector<Mailbox::Letters> letters(1);
   for (const auto& [to, meeting] : sent) letters[0][to] = packed(meeting.number, meeting.position);
-  letters = post.deliver(std::move(letters));
+  letters = mailbox.deliver(std::move(letters));
 
   Meeting all, one;  // ranks in order have numbers that ascend
   std::map<int, std::size_t> end;
@@ -55,7 +56,7 @@ Merging::Merging(std::span<const double> positions, std::size_t d, const Numberi
     for (; k < end[from]; ++k) firsts.push_back(all.number[first_there[k]]);
     letter = packed(firsts);
   }
-  letters = post.deliver(std::move(letters));
+  letters = mailbox.deliver(std::move(letters));
 
   first_.resize(first_here.size());
   for (const auto& [from, letter] : letters[0]) {
@@ -81,9 +82,9 @@ std::vector<double> Merging::joined(std::span<const double> mass) const {
     meeting.number.push_back(first_[i]);
     meeting.position.push_back(mass[i]);
   }
-  std::vector<Post::Letters> letters(1);
+  std::vector<Mailbox::Letters> letters(1);
   for (const auto& [to, meeting] : sent) letters[0][to] = packed(meeting.number, meeting.position);
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   Meeting one;
   for (const auto& [from, letter] : letters[0]) {
     unpack(letter, one.number, one.position);
@@ -98,9 +99,9 @@ void Merging::spread(std::vector<double>& weights) const {
   std::map<int, std::vector<std::uint64_t>> wanted;
   for (const std::uint64_t first : first_)
     if (!numbers_.is_here(first)) wanted[numbers_.owner(first)].push_back(first);
-  std::vector<Post::Letters> letters(1);
+  std::vector<Mailbox::Letters> letters(1);
   for (const auto& [to, numbers] : wanted) letters[0][to] = packed(numbers);
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   for (auto& [from, letter] : letters[0]) {
     std::vector<std::uint64_t> numbers;
     unpack(letter, numbers);
@@ -108,7 +109,7 @@ void Merging::spread(std::vector<double>& weights) const {
     for (const std::uint64_t number : numbers) values.push_back(weights[numbers_.index(number)]);
     letter = packed(values);
   }
-  letters = post_.deliver(std::move(letters));
+  letters = mailbox_.deliver(std::move(letters));
   std::map<std::uint64_t, double> elsewhere;
   for (const auto& [from, letter] : letters[0]) {
     std::vector<double> values;

@@ -15,8 +15,8 @@ class Merging {
  public:
   /// All ranks call it.
   /// \param positions  n x d, finite
-  /// \param numbers, post kept by reference
-  Merging(std::span<const double> positions, std::size_t d, const Numbering& numbers, RankPost& post);
+  /// \param numbers, mailbox kept by reference
+  Merging(std::span<const double> positions, std::size_t d, const Numbering& numbers, RankMailbox& mailbox);
 
   /// Indices of the seeds here that are the first at their position.
   const std::vector<std::uint32_t>& kept() const { return kept_; }
@@ -28,7 +28,7 @@ class Merging {
 
  private:
   const Numbering& numbers_;
-  RankPost& post_;
+  RankMailbox& mailbox_;
   std::vector<std::uint64_t> first_;  // by seed: number of the first at its position
   std::vector<std::uint32_t> kept_;
 };

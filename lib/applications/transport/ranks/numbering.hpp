@@ -6,16 +6,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/base/rank_post.hpp"
+#include "lib/base/rank_mailbox.hpp"
 
 namespace powercell {
 
 class Numbering {
  public:
   /// \param count  of the seeds here
-  Numbering(RankPost& post, std::uint64_t count) : rank_(static_cast<std::size_t>(post.first())), begin_{0} {
+  Numbering(RankMailbox& mailbox, std::uint64_t count)
+      : rank_(static_cast<std::size_t>(mailbox.first())), begin_{0} {
     std::vector<std::uint64_t> of_rank;
-    for (const Bytes& bytes : post.share({packed(std::vector{count})})) {
+    for (const Bytes& bytes : mailbox.share({packed(std::vector{count})})) {
       unpack(bytes, of_rank);
       begin_.push_back(begin_.back() + of_rank.at(0));
     }

@@ -64,7 +64,7 @@ RankEvaluator::RankEvaluator(const OnRanks& ranks, const Device& device, const D
       device_(device),
       density_(density),
       options_(options),
-      beyond_(kept, positions, dimension(), ranks.numbers, ranks.post) {
+      beyond_(kept, positions, dimension(), ranks.numbers, ranks.mailbox) {
   for (const std::uint32_t i : kept) ids_.push_back(ranks.numbers.first() + i);
 }
 
@@ -74,7 +74,7 @@ DistributedCells RankEvaluator::cells_of(const Vector& weights) const {
   options.redistribute = options_.redistribute;
   const SeedsView seeds{
       domain().dimension(), positions(), {weights.data(), static_cast<std::size_t>(weights.size())}};
-  return ranks_.post.nested(
+  return ranks_.mailbox.nested(
       [&] { return compute_distributed(ranks_.communicator, device_, domain(), ids_, seeds, options); });
 }
 
@@ -122,7 +122,7 @@ bool RankEvaluator::connects_all(const Laplacian& system) {
     groups.link.push_back(a);
     groups.link.push_back(b);
   }
-  return joined(ranks_.post.share({packed(groups.group, groups.link)})) == 1;
+  return joined(ranks_.mailbox.share({packed(groups.group, groups.link)})) == 1;
 }
 
 DistributedSolution RankEvaluator::solution(const Laplacian& system, const Vector& right) {
@@ -142,8 +142,8 @@ DistributedSolution RankEvaluator::solution(const Laplacian& system, const Vecto
     offset.push_back(column.size());
   }
   const DistributedRows rows{beyond_.rows().first(), count(), offset, column, value, system.singular};
-  ranks_.post.meet();  // nobody enters the solver alone
-  return ranks_.post.nested([&] {
+  ranks_.mailbox.meet();  // nobody enters the solver alone
+  return ranks_.mailbox.nested([&] {
     return ranks_.solver.solve(rows, {right.data(), static_cast<std::size_t>(right.size())},
                                options_.transport.linear_residual);
   });

@@ -14,7 +14,7 @@ namespace powercell {
 struct OnRanks {
   Communicator& communicator;
   DistributedLinearSolver& solver;
-  RankPost& post;
+  RankMailbox& mailbox;
   const AllSeeds& all;
   const Numbering& numbers;
 };

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "lib/applications/transport/all_seeds.hpp"
-#include "lib/base/rank_post.hpp"
+#include "lib/base/rank_mailbox.hpp"
 
 namespace powercell {
 
 class RankSeeds : public AllSeeds {
  public:
-  /// \param post  kept by reference
-  explicit RankSeeds(RankPost& post) : post_(post) {}
+  /// \param mailbox  kept by reference
+  explicit RankSeeds(RankMailbox& mailbox) : mailbox_(mailbox) {}
 
   std::vector<double> sums(std::vector<double> here) const override {
     return joined(here, [](double a, double b) { return a + b; });
@@ -24,7 +24,7 @@ class RankSeeds : public AllSeeds {
   template <class Join>
   std::vector<double> joined(const std::vector<double>& here, const Join& join) const {
     std::vector<double> result, values;
-    for (const Bytes& of_rank : post_.share({packed(here)})) {
+    for (const Bytes& of_rank : mailbox_.share({packed(here)})) {
       unpack(of_rank, values);
       if (result.empty())
         result = values;
@@ -34,7 +34,7 @@ class RankSeeds : public AllSeeds {
     return result;
   }
 
-  RankPost& post_;
+  RankMailbox& mailbox_;
 };
 
 }  // namespace powercell
