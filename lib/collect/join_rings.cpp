@@ -7,7 +7,7 @@
 namespace powercell {
 namespace {
 
-struct Edge {
+struct RingEdge {
   std::uint32_t from, to;
   Border border;
   bool used = false;
@@ -23,14 +23,14 @@ class RingWalk {
       if (a != b) edges_.push_back({a, b, weld.border(f)});
     }
     std::stable_sort(edges_.begin(), edges_.end(),
-                     [](const Edge& a, const Edge& b) { return a.from < b.from; });
+                     [](const RingEdge& a, const RingEdge& b) { return a.from < b.from; });
     at_.assign(weld.vertex_count(), none);
   }
 
   void walk() {
-    for (Edge& start : edges_) {
+    for (RingEdge& start : edges_) {
       if (start.used) continue;
-      for (Edge* edge = &start; edge; edge = next(*edge)) {
+      for (RingEdge* edge = &start; edge; edge = next(*edge)) {
         edge->used = true;
         at_[edge->from] = static_cast<std::uint32_t>(path_.size());
         path_.push_back(edge);
@@ -45,7 +45,7 @@ class RingWalk {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   /// The angle from the reversed direction of `in` clockwise to the direction of `out`, in (0, 2 pi].
-  double clockwise(const Edge& in, const Edge& out) const {
+  double clockwise(const RingEdge& in, const RingEdge& out) const {
     const double *a = weld_.position(in.from), *v = weld_.position(in.to), *b = weld_.position(out.to);
     const double back[2] = {a[0] - v[0], a[1] - v[1]}, on[2] = {b[0] - v[0], b[1] - v[1]};
     const double angle = std::atan2(on[0] * back[1] - on[1] * back[0], on[0] * back[0] + on[1] * back[1]);
@@ -54,10 +54,10 @@ class RingWalk {
 
   /// The next edge along the same part of the cell. As many edges start at a vertex as end there, so one
   /// exists.
-  Edge* next(const Edge& in) {
+  RingEdge* next(const RingEdge& in) {
     auto out = std::lower_bound(edges_.begin(), edges_.end(), in.to,
-                                [](const Edge& e, std::uint32_t v) { return e.from < v; });
-    Edge* best = nullptr;
+                                [](const RingEdge& e, std::uint32_t v) { return e.from < v; });
+    RingEdge* best = nullptr;
     for (; out != edges_.end() && out->from == in.to; ++out) {
       if (out->used) continue;
       if (!best || clockwise(in, *out) < clockwise(in, *best)) best = &*out;
@@ -67,7 +67,7 @@ class RingWalk {
 
   void close_ring(std::size_t begin) {
     const std::size_t n = path_.size() - begin;
-    const auto edge = [&](std::size_t k) -> const Edge& { return *path_[begin + k % n]; };
+    const auto edge = [&](std::size_t k) -> const RingEdge& { return *path_[begin + k % n]; };
     const auto stays = [&](std::size_t k) {
       return !weld_.on_interior(edge(k).from) || !(edge(k).border == edge(k + n - 1).border);
     };
@@ -86,9 +86,9 @@ class RingWalk {
 
   const CellWeld& weld_;
   JoinedFaces& faces_;
-  std::vector<Edge> edges_;        // by start
-  std::vector<const Edge*> path_;  // passes no vertex twice
-  std::vector<std::uint32_t> at_;  // by vertex: the place in path_ of the edge that starts there
+  std::vector<RingEdge> edges_;        // by start
+  std::vector<const RingEdge*> path_;  // passes no vertex twice
+  std::vector<std::uint32_t> at_;      // by vertex: the place in path_ of the edge that starts there
 };
 
 }  // namespace

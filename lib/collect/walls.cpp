@@ -194,16 +194,22 @@ void WallCollector::subtract(std::uint32_t rank, std::uint32_t neighbor, double 
   }
 }
 
-Adjacency WallCollector::finish_selected(const SeedSet& seeds, std::span<const std::uint32_t> place,
+Adjacency WallCollector::finish_selected(const SeedSet& seeds, const WallSelection& selection,
                                          const std::vector<SeedStatus>& status, double unit, bool walls) {
   parts_.clear();
-  return list_walls(rows_, seeds, place, status, unit, walls, threads_);
+  return list_walls(rows_, seeds, selection, status, unit, walls, threads_);
 }
 
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                                 double negligible) {
   parts_.clear();
   return match_walls(rows_, seeds, status, unit, negligible, threads_);
+}
+
+Adjacency WallCollector::finish(const Placement& placement, const std::vector<SeedStatus>& status,
+                                double unit, double negligible) {
+  parts_.clear();
+  return match_periodic_walls(rows_, placement, status, unit, negligible, threads_);
 }
 
 }  // namespace powercell

@@ -10,6 +10,7 @@
 
 #include "lib/base/memory.hpp"
 #include "lib/cell/pieces.hpp"
+#include "lib/periodic/images.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
@@ -53,6 +54,8 @@ class WallRows {
   /// Adds an uninitialised row of `count` walls to the memory of one thread. It replaces an earlier row of
   /// this rank.
   WallRow add(std::size_t part, std::uint32_t rank, std::size_t count);
+  /// Leaves a rank without walls.
+  void discard(std::uint32_t rank) { place_[rank] = {}; }
 
  private:
   struct Place {
@@ -67,6 +70,27 @@ class WallRows {
 bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
               double* sorted_value);
 
+/// A wall in a periodic domain.
+struct PlacedWall {
+  std::uint32_t neighbor;  ///< by input index
+  Shift shift;
+  double measure;
+  bool operator<(const PlacedWall& other) const {
+    return neighbor != other.neighbor ? neighbor < other.neighbor : shift < other.shift;
+  }
+};
+/// \param rank, neighbor  the latter of a seed or an image
+PlacedWall placed(const Placement& placement, std::uint32_t rank, std::uint32_t neighbor, double measure);
+/// Sorts the walls of a row, and writes them from an entry on, times `unit`.
+void write_placed(std::vector<PlacedWall>& walls, double unit, std::uint64_t to, Adjacency& out);
+
+/// The cells of a selection.
+struct WallSelection {
+  std::span<const std::uint32_t> rank;   ///< by row of the collector
+  std::span<const std::uint32_t> place;  ///< the same in the order of the results
+  const Placement* placement = nullptr;  ///< in a periodic domain
+};
+
 class WallCollector {
  public:
   WallCollector(std::size_t ranks, int threads, WallRows::Memory memory = {});
@@ -74,6 +98,8 @@ class WallCollector {
   /// Adds the pieces of a chunk. Ranks ascend over all chunks; a rank may continue in the next chunk.
   void add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
 
+  /// Removes the walls of a rank, so that others can be added in further chunks.
+  void discard(std::uint32_t rank) { rows_.discard(rank); }
   /// Replaces the walls of a rank, after all chunks.
   /// \param neighbors  distinct
   /// \param thread  the number of the calling thread: several may set rows at a time
@@ -94,12 +120,15 @@ class WallCollector {
   Adjacency finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                    double negligible);
 
-  /// The walls of the cells of some seeds, as seen from these cells: each is a rank for this collector, and
-  /// its neighbours are ranks of `seeds`. Rows are in the order of the selection, walls times `unit`.
-  /// \param place   of each cell in the selection
+  /// The same in a periodic domain, with shifts; ranks may be those of images.
+  Adjacency finish(const Placement& placement, const std::vector<SeedStatus>& status, double unit,
+                   double negligible);
+
+  /// The walls of the cells of some seeds, as seen from these cells: rows of this collector are those of the
+  /// selection, and their neighbours are ranks of `seeds`. Walls times `unit`.
   /// \param status  by place: walls of cells that are not ok are left out
-  /// \param walls   otherwise there are neighbours only, in any order within a row
-  Adjacency finish_selected(const SeedSet& seeds, std::span<const std::uint32_t> place,
+  /// \param walls   otherwise there are neighbours only, in any order within a row; not in a periodic domain
+  Adjacency finish_selected(const SeedSet& seeds, const WallSelection& selection,
                             const std::vector<SeedStatus>& status, double unit, bool walls);
 
   /// The memory, for another collector. This one must not be used any more.
@@ -138,11 +167,14 @@ class WallCollector {
 };
 
 /// The walls as each cell sees them, as WallCollector::finish_selected. Modifies `rows`.
-Adjacency list_walls(WallRows& rows, const SeedSet& seeds, std::span<const std::uint32_t> place,
+Adjacency list_walls(WallRows& rows, const SeedSet& seeds, const WallSelection& selection,
                      const std::vector<SeedStatus>& status, double unit, bool walls, int threads);
 
 /// Combines the two sides of each wall, as WallCollector::finish. Modifies `rows`.
 Adjacency match_walls(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status,
                       double unit, double negligible, int threads);
+Adjacency match_periodic_walls(WallRows& rows, const Placement& placement,
+                               const std::vector<SeedStatus>& status, double unit, double negligible,
+                               int threads);
 
 }  // namespace powercell

@@ -26,8 +26,7 @@ CellCollector::CellCollector(const DiagramSetup& setup, ActiveSeeds& active, Cli
       want_(want),
       workspace_(workspace),
       measures_(setup.on_device, row_seeds(), setup.domain.measure(), setup.threads),
-      walls_(collects_walls() && !active.images() ? row_seeds().size() : 0, setup.threads,
-             std::exchange(workspace.walls, {})),
+      walls_(collects_walls() ? row_count() : 0, setup.threads, std::exchange(workspace.walls, {})),
       geometry_(plan.solid ? setup.clip_mesh : setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {
   if (!active.images()) return;
   placement_.emplace(active.placement());
@@ -35,10 +34,6 @@ CellCollector::CellCollector(const DiagramSetup& setup, ActiveSeeds& active, Cli
   proof_.emplace(*setup.period(), *active.images(),
                  setup.float32() ? proved_reach_error_float : proved_reach_error_double);
   clearance_.assign(active.images()->own, std::numeric_limits<double>::infinity());
-  if (want.adjacency && plan.selected)
-    selected_walls_.emplace(*placement_, row_seeds().size(), setup.threads);
-  else if (want.adjacency)
-    periodic_walls_.emplace(*placement_, setup.threads);
 }
 
 int CellCollector::outputs() const {
@@ -68,12 +63,7 @@ void CellCollector::collect(const ClipChunk& chunk, const PieceSet& pieces) {
       if (pieces.status[k] == PIECE_FLAT) flat_.push_back(chunk.pair_row[k]);
   if (proof_) prove_reach(chunk, pieces);
   if (want_.reach) keep_reach(chunk, pieces);
-  if (selected_walls_)
-    selected_walls_->add(chunk.pair_row, chunk.pair_seed, pieces);
-  else if (periodic_walls_)
-    periodic_walls_->add(chunk.pair_seed, pieces);
-  else if (collects_walls())
-    walls_.add(chunk.pair_row, pieces);
+  if (collects_walls()) walls_.add(chunk.pair_row, pieces);
   if (want_.cells) geometry_.add(chunk.pair_seed, chunk.pair_region, pieces);
 }
 
@@ -117,7 +107,7 @@ std::vector<std::uint32_t> CellCollector::take_beyond() {
   std::vector<std::uint32_t> ranks;
   for (const std::uint32_t row : rows) {
     ranks.push_back(rank_of_row(row));
-    if (selected_walls_) selected_walls_->discard(row);
+    if (collects_walls()) walls_.discard(row);
   }
   geometry_.discard(ranks);
   return rows;
@@ -132,8 +122,7 @@ void CellCollector::keep_wall_memory() {
 
 void CellCollector::place_centroids(Measures& measures) const {
   const auto d = static_cast<std::size_t>(measures.dimension);
-  const std::size_t rows = plan_.selected ? plan_.selected->rank.size() : active_.images()->own;
-  for (std::uint32_t row = 0; row < rows; ++row) {
+  for (std::uint32_t row = 0; row < row_count(); ++row) {
     if (placement_->is_inside(rank_of_row(row))) continue;
     const std::array<double, 3> offset = placement_->offset(rank_of_row(row));
     for (std::size_t c = 0; c < d; ++c) measures.centroid[row_seeds().input[row] * d + c] += offset[c];
@@ -178,9 +167,11 @@ std::optional<Adjacency> CellCollector::finish_adjacency(const std::vector<SeedS
   const double negligible = setup_.exact()     ? 0
                             : setup_.float32() ? NEGLIGIBLE_WALL_FLOAT
                                                : NEGLIGIBLE_WALL_DOUBLE;
-  if (selected_walls_) return selected_walls_->finish(seeds.input, status, unit);
-  if (periodic_walls_) return periodic_walls_->finish(status, unit, negligible);
-  if (plan_.selected) return walls_.finish_selected(active_.seeds(), seeds.input, status, unit, want_.walls);
+  const Placement* const placement = placement_ ? &*placement_ : nullptr;
+  if (plan_.selected)
+    return walls_.finish_selected(active_.seeds(), {plan_.selected->rank, seeds.input, placement}, status,
+                                  unit, want_.walls);
+  if (placement) return walls_.finish(*placement, status, unit, negligible);
   return walls_.finish(seeds, status, unit, negligible);
 }
 

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "lib/collect/geometry.hpp"
-#include "lib/collect/periodic_walls.hpp"
-#include "lib/collect/selected_walls.hpp"
+#include "lib/collect/walls.hpp"
 #include "lib/diagram/chunk_pipeline.hpp"
 #include "lib/diagram/clip.hpp"
 #include "lib/integrate/moment_sums.hpp"
@@ -58,6 +57,12 @@ class CellCollector {
   bool collects_walls() const { return want_.adjacency || plan_.solid; }
   /// The seeds of the cells to compute, row by row: by rank unless they are selected.
   const SeedSet& row_seeds() const { return plan_.selected ? plan_.selected->seeds : active_.seeds(); }
+  /// The number of cells to compute; images, which are seeds behind them, have none.
+  std::size_t row_count() const {
+    return plan_.selected     ? plan_.selected->rank.size()
+           : active_.images() ? active_.images()->own
+                              : active_.seeds().size();
+  }
   std::uint32_t rank_of_row(std::uint32_t row) const {
     return plan_.selected ? plan_.selected->rank[row] : row;
   }
@@ -86,8 +91,6 @@ class CellCollector {
   // In a periodic domain:
   std::optional<Placement> placement_;
   std::optional<MarginProof> proof_;
-  std::optional<PeriodicWalls> periodic_walls_;
-  std::optional<SelectedWalls> selected_walls_;
   std::vector<std::uint32_t> beyond_;  // ascending: rows of cells that reach too far
   double margin_ = 0;                  // that these need
   std::vector<double> clearance_;      // by rank; infinite for cells that are not known
