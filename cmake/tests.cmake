@@ -34,7 +34,7 @@ function(powercell_add_test_folders)
         include(${folder}/folder.cmake)  # may set these for this folder
       endif()
       target_link_libraries(test_${name} PRIVATE ${library})
-      powercell_in_batches(test_${name})
+      powercell_in_batches(test_${name} 10)
       add_test(NAME ${name} COMMAND test_${name} ${arguments})
     endif()
   endforeach()

@@ -15,7 +15,7 @@ std::string percent(double fraction) {
   return fmt::format("{:.2g} %", 100 * fraction);
 }
 
-std::string line(const std::string& domain, const std::string& precision, const std::string& n) {
+std::string table_line(const std::string& domain, const std::string& precision, const std::string& n) {
   return fmt::format("{:<12}{:<10}{:>11}", domain, precision, n);
 }
 
@@ -52,13 +52,13 @@ std::string device_lines(const BenchDevice& device) {
 }
 
 std::string table_head() {
-  return line("domain", "precision", "seeds") + fmt::format("{:>12}{:>7}{:>12}{:>7}{:>12}{:>11}{:>9}{:>9}",
-                                                            "cells/s", "", "+adjacency", "", "arithmetic",
-                                                            "bandwidth", "build s", "first s");
+  return table_line("domain", "precision", "seeds") +
+         fmt::format("{:>12}{:>7}{:>12}{:>7}{:>12}{:>11}{:>9}{:>9}", "cells/s", "", "+adjacency", "",
+                     "arithmetic", "bandwidth", "build s", "first s");
 }
 
 std::string table_line(const BenchRow& row) {
-  const std::string start = line(row.domain, row.precision, row.n ? with_commas(row.n) : "");
+  const std::string start = table_line(row.domain, row.precision, row.n ? with_commas(row.n) : "");
   if (!row.failure.empty()) return start + "  FAILED: " + row.failure;
   return start + rate_text(row.rate(), row.measures) + rate_text(row.adjacency_rate(), row.adjacency) +
          fmt::format("{:>12}{:>11}{:>9.2f}{:>9.2f}", percent(row.arithmetic_fraction()),
@@ -66,7 +66,7 @@ std::string table_line(const BenchRow& row) {
 }
 
 std::string table_line(const LeftOut& row) {
-  return line(row.domain, row.precision, with_commas(row.n)) + "  left out: " + row.reason;
+  return table_line(row.domain, row.precision, with_commas(row.n)) + "  left out: " + row.reason;
 }
 
 std::string scatter_notes(const BenchRecord& record) {

@@ -16,7 +16,7 @@ struct Checks {
   std::vector<const pc_law_check*> pointers;
 };
 
-pc_verify_options defaults() {
+pc_verify_options default_verify_options() {
   const VerifyOptions from;
   pc_verify_options to{};
   to.samples = from.samples;
@@ -25,7 +25,7 @@ pc_verify_options defaults() {
 }
 
 VerifyOptions verify_options(const pc_verify_options* options) {
-  const pc_verify_options from = current(options, defaults(), "pc_verify_options");
+  const pc_verify_options from = current(options, default_verify_options(), "pc_verify_options");
   VerifyOptions to;
   to.samples = from.samples;
   to.random_seed = from.random_seed;
@@ -90,7 +90,7 @@ using namespace powercell::c_api;
 extern "C" {
 
 pc_status pc_verify_options_init(pc_verify_options* options, size_t struct_size) {
-  return init(options, struct_size, defaults(), "pc_verify_options");
+  return init(options, struct_size, default_verify_options(), "pc_verify_options");
 }
 
 pc_status pc_diagram_verify(pc_diagram* diagram, const double* positions, const double* weights, size_t count,

@@ -9,7 +9,7 @@
 namespace powercell {
 namespace {
 
-using Triangle = std::array<const double*, 3>;
+using CornerPointers = std::array<const double*, 3>;
 
 /// A point without its coordinate along an axis.
 std::array<double, 2> without(const double* x, std::size_t axis) {
@@ -21,14 +21,14 @@ int turn(const double* a, const double* b, const double* c, std::size_t axis) {
 }
 
 /// An axis along which a triangle projects to one.
-std::size_t visible_along(const Triangle& t) {
+std::size_t visible_along(const CornerPointers& t) {
   std::size_t axis = 0;
   while (axis < 2 && turn(t[0], t[1], t[2], axis) == 0) ++axis;
   return axis;
 }
 
 /// Whether a point in the plane of a triangle lies in the triangle or on its edges.
-bool contains(const Triangle& t, const double* x, std::size_t axis) {
+bool contains(const CornerPointers& t, const double* x, std::size_t axis) {
   bool left = false, right = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const int side = turn(t[k], t[(k + 1) % 3], x, axis);
@@ -44,7 +44,7 @@ bool segments_cross(const double* a, const double* b, const double* c, const dou
 }
 
 /// Whether a segment meets a triangle, edges and ends included.
-bool meets(const double* p, const double* q, const Triangle& t) {
+bool meets(const double* p, const double* q, const CornerPointers& t) {
   const int at_p = orient3d(t[0], t[1], t[2], p), at_q = orient3d(t[0], t[1], t[2], q);
   if (at_p * at_q > 0) return false;
   const std::size_t axis = visible_along(t);
@@ -73,7 +73,7 @@ class Pairs {
       : vertices_(vertices), triangles_(triangles) {}
 
   const double* at(std::uint32_t v) const { return &vertices_[3 * std::size_t{v}]; }
-  Triangle triangle(std::uint32_t row) const {
+  CornerPointers triangle(std::uint32_t row) const {
     const Corners& c = triangles_[row];
     return {at(c[0]), at(c[1]), at(c[2])};
   }
@@ -105,7 +105,7 @@ class Pairs {
     const std::uint32_t from = a[(k + 1) % 3], to = a[(k + 2) % 3];
     const std::uint32_t other =
         *std::find_if(b.begin(), b.end(), [&](std::uint32_t v) { return v != from && v != to; });
-    const Triangle t{at(a[k]), at(from), at(to)};
+    const CornerPointers t{at(a[k]), at(from), at(to)};
     if (orient3d(t[0], t[1], t[2], at(other)) != 0) return false;
     const std::size_t axis = visible_along(t);
     return turn(at(from), at(to), at(a[k]), axis) == turn(at(from), at(to), at(other), axis);

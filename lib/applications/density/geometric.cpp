@@ -16,7 +16,7 @@ constexpr double negligible_share = 1e-3;  // of the mean density
 /// The longest edge of the simplices that show where a density lies: about a thousand of them in a domain
 /// about as long as wide, and at most 128 along it. In space shorter edges find no more of the peaks wider
 /// than 1/300 of a cube, and cost up to twice as much for eighths of the domain that are hard throughout.
-double longest_edge(const Domain& domain) {
+double longest_region_edge(const Domain& domain) {
   const int d = domain.cell_dimension();
   double square = 0;
   for (std::size_t c = 0; c < static_cast<std::size_t>(domain.dimension()); ++c)
@@ -39,11 +39,11 @@ double second_about(const Point& x, const Moments& m) {
   return std::max(m.second - m.mass * dot(centroid, centroid), 0.0) + m.mass * dot(way, way);
 }
 
-/// Edges as short relative to the extent of the density as longest_edge() is relative to the domain: the root
-/// mean square distance from the middle is 1/√6 of the width of a square and 1/2 of that of a cube.
+/// Edges as short relative to the extent of the density as longest_region_edge() is relative to the domain:
+/// the root mean square distance from the middle is 1/√6 of the width of a square and 1/2 of that of a cube.
 /// \param moments  of the regions
 Resolution resolution_of(const Domain& domain, std::span<const Moments> moments) {
-  Resolution resolution{longest_edge(domain), longest_edge(domain)};
+  Resolution resolution{longest_region_edge(domain), longest_region_edge(domain)};
   const double mass = mass_of(moments);
   if (!(mass > 0) || !std::isfinite(mass)) return resolution;
   for (const Moments& m : moments)
@@ -85,7 +85,7 @@ GeometricDensity::Summary GeometricDensity::summary(const Domain& domain, int th
   constexpr double rough = 1e-2;
   const auto jump_in = [](std::span<const Moments> all) { return std::ranges::any_of(all, &Moments::jump); };
   std::vector<Moments> found =
-      moments(0, std::numeric_limits<double>::infinity(), {longest_edge(domain)}, false);
+      moments(0, std::numeric_limits<double>::infinity(), {longest_region_edge(domain)}, false);
   const double negligible = negligible_share * std::abs(mass_of(found)) / domain.measure();
   const Resolution resolution = resolution_of(domain, found);
   const bool jumps = jump_in(moments(rough, negligible, resolution, false));

@@ -47,7 +47,7 @@ void cut_segment(const Place& a, const Place& b, CutAt where, const Visit& visit
 }
 
 /// The point at fraction t of a segment.
-Place between(const Place& a, const Place& b, double t) {
+Place on_segment(const Place& a, const Place& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
 }
 
@@ -65,11 +65,11 @@ void walk(const Place& a, const Place& b, const Pixels& pixels, const Visit& vis
   const auto [in, out] = passage(a[1], b[1], pixels.height());
   if (in > out) return;
   // Ends that are not cut keep their exact coordinates, so that consecutive segments still meet.
-  const Place from = in > 0 ? between(a, b, in) : a, to = out < 1 ? between(a, b, out) : b;
+  const Place from = in > 0 ? on_segment(a, b, in) : a, to = out < 1 ? on_segment(a, b, out) : b;
   const auto [left, right] = passage(from[0], to[0], pixels.width());
   if (left > right) return cut_segment(from, to, CutAt::rows, visit);
-  const Place first = left > 0 ? between(from, to, left) : from,
-              last = right < 1 ? between(from, to, right) : to;
+  const Place first = left > 0 ? on_segment(from, to, left) : from,
+              last = right < 1 ? on_segment(from, to, right) : to;
   if (left > 0) cut_segment(from, first, CutAt::rows, visit);
   cut_segment(first, last, CutAt::pixels, visit);
   if (right < 1) cut_segment(last, to, CutAt::rows, visit);

@@ -13,7 +13,7 @@ namespace powercell::remeshing {
 namespace {
 
 /// Numbers of points: half-edges with the same two are at one edge.
-using Points = std::vector<std::uint32_t>;
+using VertexList = std::vector<std::uint32_t>;
 
 class Joiner {
  public:
@@ -47,14 +47,14 @@ class Joiner {
   }
 
  private:
-  std::uint64_t key(std::uint32_t h, const Points& point) const {
+  std::uint64_t key(std::uint32_t h, const VertexList& point) const {
     const auto [a, b] = std::minmax(point[mesh_.from(h)], point[mesh_.to(h)]);
     return edge_key(a, b);
   }
 
   /// Joins half-edges of which just two are open at an edge.
   /// \return the groups of more
-  std::vector<std::vector<std::uint32_t>> join_pairs(const Points& point) {
+  std::vector<std::vector<std::uint32_t>> join_pairs(const VertexList& point) {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> open;
     for (std::uint32_t h = 0; h < mate_.size(); ++h)
       if (mate_[h] == nothing && point[mesh_.from(h)] != point[mesh_.to(h)])
@@ -74,7 +74,7 @@ class Joiner {
     return crowded;
   }
 
-  void join(std::uint32_t h, std::uint32_t g, const Points& point) {
+  void join(std::uint32_t h, std::uint32_t g, const VertexList& point) {
     mate_[h] = g;
     mate_[g] = h;
     const auto next = [](std::uint32_t e) { return e % 3 == 2 ? e - 2 : e + 1; };
@@ -86,7 +86,7 @@ class Joiner {
 
   /// Joins half-edges at one edge in pairs that enclose the inside of the surface between them, by the angle
   /// of their triangles around the edge.
-  void join_around(const std::vector<std::uint32_t>& edges, const Points& point) {
+  void join_around(const std::vector<std::uint32_t>& edges, const VertexList& point) {
     const std::uint32_t a = mesh_.from(edges.front()), b = mesh_.to(edges.front());
     const Vec axis = unit(mesh_.vertex[b] - mesh_.vertex[a]);
     const Vec side = std::fabs(axis.x) < 0.6 ? Vec{1, 0, 0} : Vec{0, 1, 0};
@@ -154,7 +154,7 @@ class Joiner {
       for (const std::uint32_t v : {place_[mesh_.from(h)], place_[mesh_.to(h)]})
         reach[v] = std::min(reach[v], most);
     }
-    const Points cluster = clusters(reach, weld);
+    const VertexList cluster = clusters(reach, weld);
     const std::size_t before = open_edges();
     const std::vector<std::vector<std::uint32_t>> crowded = join_pairs(cluster);
     for (const std::vector<std::uint32_t>& edges : crowded) join_around(edges, cluster);
@@ -172,7 +172,7 @@ class Joiner {
   }
 
   /// Numbers the points so that those within reach of each other have the same number.
-  Points clusters(const std::vector<double>& reach, double weld) const {
+  VertexList clusters(const std::vector<double>& reach, double weld) const {
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cube;
     const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
       return (static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(y)) *
@@ -195,7 +195,7 @@ class Joiner {
           }
       cube[key(x, y, z)].push_back(p);
     }
-    Points cluster(mesh_.vertex.size());
+    VertexList cluster(mesh_.vertex.size());
     for (std::uint32_t v = 0; v < cluster.size(); ++v) cluster[v] = sets.root(place_[v]);
     return cluster;
   }
@@ -288,7 +288,7 @@ class Joiner {
   std::vector<bool> opposite_;       // whether that one runs the other way
   DisjointSets corners_;             // per half-edge, for the corner that it starts at
   std::vector<bool> turned_;         // per triangle, to be oriented as its part
-  Points index_, place_;
+  VertexList index_, place_;
 };
 
 }  // namespace

@@ -14,11 +14,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Largest relative difference of the sum of the masses from the domain's mass, without rescaling.
 constexpr double sum_tolerance = 1e-9;
 
-[[noreturn]] void refuse(const std::string& what) {
+}  // namespace
+
+void refuse(const std::string& what) {
   throw Error(ErrorCode::invalid_argument, what);
 }
-
-}  // namespace
 
 void require_valid(const TransportOptions& options) {
   if (!(options.tolerance >= 0) || !(options.tolerance < 1))

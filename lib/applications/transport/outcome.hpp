@@ -10,6 +10,9 @@
 namespace powercell {
 
 /// \throw Error invalid_argument
+[[noreturn]] void refuse(const std::string& what);
+
+/// \throw Error invalid_argument
 void require_valid(const TransportOptions& options);
 
 /// \param first  number of the first of these seeds in messages

@@ -6,14 +6,6 @@
 #include "lib/base/float_environment.hpp"
 
 namespace powercell {
-namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorCode::invalid_argument, what);
-}
-
-}  // namespace
-
 const char* name(TransportPhase phase) noexcept {
   switch (phase) {
     case TransportPhase::start:
