@@ -15,7 +15,7 @@
 #include "apps/bench/run.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/read_file.hpp"
+#include "apps/io/read/file.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/option_words.hpp"
 #include "apps/outputs.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/inputs.hpp"
-#include "apps/io/write_npy.hpp"
+#include "apps/io/write/npy.hpp"
 
 namespace powercell::app {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/cell_writers.hpp"
-#include "apps/io/seed_stream.hpp"
+#include "apps/io/tables/seed_stream.hpp"
+#include "apps/io/write/cell_writers.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {

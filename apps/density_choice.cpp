@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "apps/common.hpp"
-#include "apps/io/read_density.hpp"
-#include "apps/io/read_image.hpp"
+#include "apps/io/read/density.hpp"
+#include "apps/io/read/image.hpp"
 
 namespace powercell::app {
 namespace {

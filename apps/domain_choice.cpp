@@ -6,8 +6,8 @@
 #include <powercell/error.hpp>
 
 #include "apps/common.hpp"
-#include "apps/io/domain_box.hpp"
 #include "apps/io/names.hpp"
+#include "apps/io/read/domain_box.hpp"
 #include "apps/option_words.hpp"
 
 namespace powercell::app {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 
 namespace CLI {
 class App;

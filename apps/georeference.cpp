@@ -12,9 +12,9 @@
 #include <powercell/error.hpp>
 
 #include "apps/io/printable.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_file.hpp"
-#include "apps/io/seeds_outside.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/read/file.hpp"
+#include "apps/io/tables/seeds_outside.hpp"
 
 namespace powercell::app {
 namespace {

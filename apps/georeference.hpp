@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/map_frame.hpp"
-#include "apps/io/read_polygons.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/maps/frame.hpp"
+#include "apps/io/read/polygons.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 
 namespace CLI {
 class App;

@@ -8,10 +8,10 @@
 #include <powercell/error.hpp>
 
 #include "apps/common.hpp"
-#include "apps/io/domain_box.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/printable.hpp"
-#include "apps/io/read_text.hpp"
+#include "apps/io/read/domain_box.hpp"
+#include "apps/io/read/text.hpp"
 #include "apps/option_words.hpp"
 #include "apps/seeds_outside.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "apps/domain_choice.hpp"
 #include "apps/georeference.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "apps/report.hpp"
 
 namespace CLI {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/io/read_text.hpp"
+#include "apps/io/read/text.hpp"
 
 namespace powercell::app {
 namespace {

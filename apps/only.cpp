@@ -7,8 +7,8 @@
 #include <powercell/error.hpp>
 
 #include "apps/io/printable.hpp"
-#include "apps/io/read_fields.hpp"
-#include "apps/io/read_file.hpp"
+#include "apps/io/read/file.hpp"
+#include "apps/io/tables/fields.hpp"
 
 namespace powercell::app {
 namespace {

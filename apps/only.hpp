@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 
 namespace powercell::app {
 

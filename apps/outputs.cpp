@@ -9,7 +9,7 @@
 
 #include "apps/common.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/output.hpp"
+#include "apps/io/write/output.hpp"
 
 namespace powercell::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/map_frame.hpp"
-#include "apps/io/picture_style.hpp"
+#include "apps/io/maps/frame.hpp"
+#include "apps/io/picture/style.hpp"
 
 namespace CLI {
 class App;

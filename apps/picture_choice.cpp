@@ -10,10 +10,10 @@
 
 #include "apps/common.hpp"
 #include "apps/io/names.hpp"
-#include "apps/io/picture.hpp"
+#include "apps/io/picture/picture.hpp"
 #include "apps/io/printable.hpp"
-#include "apps/io/read_file.hpp"
-#include "apps/io/read_text.hpp"
+#include "apps/io/read/file.hpp"
+#include "apps/io/read/text.hpp"
 
 namespace powercell::app {
 namespace {

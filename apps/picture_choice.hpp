@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/picture_style.hpp"
-#include "apps/io/picture_vector.hpp"
+#include "apps/io/picture/style.hpp"
+#include "apps/io/picture/vector.hpp"
 
 namespace CLI {
 class App;

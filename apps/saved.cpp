@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/io/names.hpp"
-#include "apps/io/read_file.hpp"
+#include "apps/io/read/file.hpp"
 
 namespace powercell::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <powercell/error.hpp>
 
 #include "apps/io/printable.hpp"
-#include "apps/io/read_fields.hpp"
+#include "apps/io/tables/fields.hpp"
 
 namespace powercell::app {
 namespace {
@@ -100,7 +100,7 @@ void require_inside(std::uint64_t outside, std::uint64_t seeds) {
   throw Error(ErrorCode::invalid_seed,
               fmt::format("{} of {} seeds lie outside the domain's box; if they are meant to lie there, give "
                           "--allow-outside",
-                          with_commas(outside), with_commas(seeds)));
+                          io::with_commas(outside), io::with_commas(seeds)));
 }
 
 }  // namespace powercell::app

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/read_seeds.hpp"
-#include "apps/io/seeds_outside.hpp"
+#include "apps/io/tables/read_seeds.hpp"
+#include "apps/io/tables/seeds_outside.hpp"
 
 namespace powercell::app {
 

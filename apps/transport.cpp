@@ -1,4 +1,6 @@
 // powercell transport: the weights that give cells prescribed masses, from files to files.
+#include "apps/io/write/transport.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,10 +13,9 @@
 #include "apps/density_choice.hpp"
 #include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/output.hpp"
-#include "apps/io/read_masses.hpp"
-#include "apps/io/write_table.hpp"
-#include "apps/io/write_transport.hpp"
+#include "apps/io/tables/read_masses.hpp"
+#include "apps/io/write/output.hpp"
+#include "apps/io/write/table.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/option_words.hpp"
 #include "apps/outputs.hpp"

@@ -1,4 +1,6 @@
 // powercell treemap: hierarchical data as nested cells of exact areas.
+#include "apps/io/write/treemap.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,9 +10,8 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/picture.hpp"
-#include "apps/io/read_tree.hpp"
-#include "apps/io/write_treemap.hpp"
+#include "apps/io/picture/picture.hpp"
+#include "apps/io/tables/read_tree.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/option_words.hpp"
 #include "apps/outputs.hpp"

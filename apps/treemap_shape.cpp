@@ -11,8 +11,8 @@
 #include <powercell/shapes.hpp>
 #include <string_view>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_text.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/read/text.hpp"
 
 namespace powercell::app {
 namespace {

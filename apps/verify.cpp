@@ -12,7 +12,7 @@
 #include "apps/common.hpp"
 #include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "lib/base/random.hpp"
 
 namespace {

@@ -13,7 +13,7 @@ jobs=${JOBS:-$(nproc)}
 
 # Tests that read bytes of others, share memory with the caller or hand it to a device. fuzz calls every entry point, those of
 # the applications too.
-memory="readers report fuzz seeds clip collect hostile primitives cl c_api base"
+memory="readers report fuzz seeds cell clip collect hostile primitives cl c_api base"
 # Those of arithmetic besides; exact has CGAL to compile. The others (diagram, device_diagram, transport, sampling,
 # determinism, faults) take twice as long together, most of it in kernels, which are not sanitized.
 host="$memory writers treemap remeshing domain linear density exact pairs laws neighbors verify"

@@ -1,6 +1,6 @@
 #include "apps/bench/csv.hpp"
 
-#include "apps/io/seed_rows.hpp"
+#include "apps/io/tables/seed_rows.hpp"
 
 namespace powercell::app {
 namespace {

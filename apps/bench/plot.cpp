@@ -10,10 +10,10 @@
 #include "apps/bench/sizes.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/colour_scales.hpp"
-#include "apps/io/picture_text.hpp"
+#include "apps/io/picture/colour_scales.hpp"
+#include "apps/io/picture/round_ticks.hpp"
+#include "apps/io/picture/text.hpp"
 #include "apps/io/printable.hpp"
-#include "apps/io/round_ticks.hpp"
 
 namespace powercell::app {
 namespace {
@@ -169,9 +169,10 @@ class Plot {
       const double y = top + line * static_cast<double>(k);
       const auto& [domain, precision, n] = keys_[k];
       text += line_from(names_end, y, rows_end, y, grid, 1);
-      text += text_at(names_end - 8, y + 4,
-                      fmt::format("{}, {}, {}", io::shortened(domain, 8, false), precision, with_commas(n)),
-                      {ink, Side::right});
+      text +=
+          text_at(names_end - 8, y + 4,
+                  fmt::format("{}, {}, {}", io::shortened(domain, 8, false), precision, io::with_commas(n)),
+                  {ink, Side::right});
       for (const BenchRow& row : record_.rows)
         if (row.failure.empty() && Key{row.domain, row.precision, row.n} == keys_[k])
           text += dots(row, y, scale);

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "apps/common.hpp"
-#include "apps/io/read_file.hpp"
+#include "apps/io/read/file.hpp"
 
 namespace powercell::app {
 namespace {

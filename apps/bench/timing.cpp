@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/common.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "apps/bench/record.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 
 namespace powercell::app {
 

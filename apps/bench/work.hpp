@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <powercell/powercell.hpp>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 
 namespace powercell::app {
 

@@ -8,12 +8,12 @@
 
 #include "apps/demo/parts.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/picture.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_tree.hpp"
-#include "apps/io/write_points.hpp"
-#include "apps/io/write_treemap.hpp"
-#include "apps/io/write_triangles.hpp"
+#include "apps/io/picture/picture.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_tree.hpp"
+#include "apps/io/write/points.hpp"
+#include "apps/io/write/treemap.hpp"
+#include "apps/io/write/triangles.hpp"
 #include "apps/sampling/source.hpp"
 #include "apps/treemap_shape.hpp"
 

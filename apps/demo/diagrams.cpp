@@ -7,8 +7,8 @@
 #include "apps/demo/parts.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "apps/outputs.hpp"
 #include "apps/report.hpp"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "apps/io/printable.hpp"
-#include "apps/io/read_text.hpp"
+#include "apps/io/read/text.hpp"
 
 namespace powercell::io {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "apps/common.hpp"
 #include "apps/georeference.hpp"
-#include "apps/io/map_crs.hpp"
+#include "apps/io/maps/crs.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/printable.hpp"
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 
 namespace powercell::app {
 namespace {

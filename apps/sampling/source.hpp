@@ -9,7 +9,7 @@
 
 #include "apps/density_choice.hpp"
 #include "apps/domain_choice.hpp"
-#include "apps/io/picture_palette.hpp"
+#include "apps/io/picture/palette.hpp"
 
 namespace powercell::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/common.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 
 namespace powercell::app {
 

@@ -9,7 +9,7 @@
 
 #include "apps/bench/timing.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "apps/progress.hpp"
 #include "apps/tune/job.hpp"
 #include "apps/tune/settings.hpp"

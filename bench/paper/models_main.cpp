@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "bench/paper/table_file.hpp"
 #include "bench/paper/trial.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "bench/clocks.hpp"
 #include "bench/remeshing/cgal_mesh.hpp"
 #include "tests/applications/remeshing/shapes.hpp"

@@ -4,7 +4,7 @@
 #include <powercell/triangulation.hpp>
 #include <powercell/verify.hpp>
 
-#include "apps/io/write_formats.hpp"
+#include "apps/io/write/formats.hpp"
 #include "python/src/call.hpp"
 #include "python/src/density.hpp"
 #include "python/src/options.hpp"

@@ -1,6 +1,6 @@
-#include "apps/io/map_crs.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/maps/crs.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "python/src/call.hpp"
 #include "python/src/options.hpp"
 

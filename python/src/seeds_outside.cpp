@@ -1,4 +1,4 @@
-#include "apps/io/seeds_outside.hpp"
+#include "apps/io/tables/seeds_outside.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 
 using namespace powercell;
 using namespace powercell::app;

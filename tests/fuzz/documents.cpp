@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "apps/bench/saved_record.hpp"
-#include "apps/io/read_image.hpp"
-#include "apps/io/read_masses.hpp"
-#include "apps/io/read_tree.hpp"
+#include "apps/io/read/image.hpp"
+#include "apps/io/tables/read_masses.hpp"
+#include "apps/io/tables/read_tree.hpp"
 #include "apps/saved.hpp"
 #include "tests/fuzz/refusals.hpp"
 #include "tests/fuzz/treemap_laws.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "tests/fuzz/refusals.hpp"
 
 namespace powercell::fuzz {

@@ -3,10 +3,10 @@
 #include <sys/resource.h>
 #include <zlib.h>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_image.hpp"
-#include "apps/io/read_seeds.hpp"
-#include "apps/io/read_tree.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/read/image.hpp"
+#include "apps/io/tables/read_seeds.hpp"
+#include "apps/io/tables/read_tree.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

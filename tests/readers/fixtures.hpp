@@ -9,8 +9,8 @@
 #include <powercell/error.hpp>
 #include <string>
 
-#include "apps/io/read_file.hpp"
-#include "apps/io/read_polygons.hpp"
+#include "apps/io/read/file.hpp"
+#include "apps/io/read/polygons.hpp"
 
 namespace powercell::io::test {
 

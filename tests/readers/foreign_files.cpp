@@ -1,8 +1,8 @@
-#include "apps/io/foreign_files.hpp"
+#include "apps/io/read/foreign_files.hpp"
 
 #include <doctest/doctest.h>
 
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

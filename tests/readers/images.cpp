@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-#include "apps/io/read_image.hpp"
+#include "apps/io/read/image.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "apps/io/feature_rows.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/feature_rows.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_svg_path.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/read/svg_path.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

@@ -4,8 +4,8 @@
 #include <powercell/error.hpp>
 #include <vector>
 
-#include "apps/io/map_crs.hpp"
-#include "apps/io/map_projection.hpp"
+#include "apps/io/maps/crs.hpp"
+#include "apps/io/maps/projection.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

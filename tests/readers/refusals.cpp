@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

@@ -5,7 +5,7 @@
 #include <ctime>
 #include <limits>
 
-#include "apps/io/read_seeds.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

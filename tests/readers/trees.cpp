@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "apps/io/read_text.hpp"
-#include "apps/io/read_tree.hpp"
+#include "apps/io/read/text.hpp"
+#include "apps/io/tables/read_tree.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;

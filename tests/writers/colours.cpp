@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "apps/io/colour_scales.hpp"
-#include "apps/io/colouring.hpp"
-#include "apps/io/picture_legend.hpp"
-#include "apps/io/round_ticks.hpp"
+#include "apps/io/picture/colour_scales.hpp"
+#include "apps/io/picture/colouring.hpp"
+#include "apps/io/picture/legend.hpp"
+#include "apps/io/picture/round_ticks.hpp"
 
 using namespace powercell;
 

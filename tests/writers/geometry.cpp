@@ -8,7 +8,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "apps/io/output.hpp"
+#include "apps/io/write/output.hpp"
 #include "tests/writers/clip_pieces.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"

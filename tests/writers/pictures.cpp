@@ -8,11 +8,11 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "apps/io/output.hpp"
-#include "apps/io/picture_light.hpp"
-#include "apps/io/picture_models.hpp"
-#include "apps/io/picture_outline.hpp"
-#include "apps/io/picture_scene.hpp"
+#include "apps/io/picture/light.hpp"
+#include "apps/io/picture/models.hpp"
+#include "apps/io/picture/outline.hpp"
+#include "apps/io/picture/scene.hpp"
+#include "apps/io/write/output.hpp"
 #include "tests/writers/clip_pieces.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
 #include "tests/writers/made_diagram.hpp"
 
 namespace powercell::test {

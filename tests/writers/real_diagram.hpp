@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/output.hpp"
+#include "apps/io/write/output.hpp"
 
 namespace powercell::test {
 

@@ -1,5 +1,5 @@
 // Cells that share their points and walls: laws that need no other result.
-#include "apps/io/shared_cells.hpp"
+#include "apps/io/write/shared_cells.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/shared_points.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/write/shared_points.hpp"
 #include "tests/writers/clip_pieces.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/real_diagram.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "apps/io/names.hpp"
-#include "apps/io/write_table.hpp"
+#include "apps/io/write/table.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "apps/io/output.hpp"
-#include "apps/io/read_domain.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/write/output.hpp"
 #include "tests/writers/clip_pieces.hpp"
 #include "tests/writers/real_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"

@@ -9,9 +9,9 @@
 #include <random>
 #include <set>
 
-#include "apps/io/colour_spaces.hpp"
-#include "apps/io/picture_text.hpp"
-#include "apps/io/treemap_scene.hpp"
+#include "apps/io/picture/colour_spaces.hpp"
+#include "apps/io/picture/text.hpp"
+#include "apps/io/picture/treemap_scene.hpp"
 
 using namespace powercell;
 

@@ -10,9 +10,9 @@
 #include <regex>
 #include <set>
 
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
-#include "apps/io/view/page.hpp"
+#include "apps/io/page/page.hpp"
+#include "apps/io/read/domain.hpp"
+#include "apps/io/tables/read_seeds.hpp"
 #include "tests/writers/clip_pieces.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"

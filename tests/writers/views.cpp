@@ -8,10 +8,10 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "apps/io/colour_scales.hpp"
-#include "apps/io/output.hpp"
-#include "apps/io/picture_models.hpp"
-#include "apps/io/picture_scene.hpp"
+#include "apps/io/picture/colour_scales.hpp"
+#include "apps/io/picture/models.hpp"
+#include "apps/io/picture/scene.hpp"
+#include "apps/io/write/output.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"
 

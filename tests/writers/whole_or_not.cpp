@@ -9,8 +9,8 @@
 #include <powercell/error.hpp>
 
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/output.hpp"
-#include "apps/io/write_table.hpp"
+#include "apps/io/write/output.hpp"
+#include "apps/io/write/table.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"
 
