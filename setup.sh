@@ -29,7 +29,7 @@ test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev libopenmpi-dev open
 bench_packages="libbenchmark-dev python3-matplotlib python3-scipy"
 
 # Packages of the gates besides those of the tests.
-gate_packages="git ccache clang-format clang-tidy doxygen g++-mingw-w64-x86-64-posix"
+gate_packages="git ccache chromium clang-format clang-tidy doxygen g++-mingw-w64-x86-64-posix"
 
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
 fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }
