@@ -4,9 +4,9 @@
 #include <powercell/export.hpp>
 
 #define POWERCELL_VERSION_MAJOR 0
-#define POWERCELL_VERSION_MINOR 1
+#define POWERCELL_VERSION_MINOR 2
 #define POWERCELL_VERSION_PATCH 0
-#define POWERCELL_VERSION "0.1.0"
+#define POWERCELL_VERSION "0.2.0"
 
 namespace powercell {
 /// The version of the linked library, "major.minor.patch".

@@ -12,7 +12,7 @@ class Powercell(CMakePackage):
     # `spack develop` or `spack dev-build`.
     license("BSD-3-Clause")
 
-    version("0.1.0")
+    version("0.2.0")
 
     variant("shared", default=True, description="Build shared libraries")
     variant("flann", default=True, description="Neighbours from FLANN's lists, beside the library's own search")

@@ -68,6 +68,7 @@ from ._seeds import Seeds, read_seeds  # noqa: E402
 from ._transport import TransportSolver, transport  # noqa: E402
 from ._triangulation import regular_triangulation  # noqa: E402
 from ._treemap import Treemap, treemap  # noqa: E402
+from ._voronoi import Voronoi, voronoi  # noqa: E402
 
 for _kind in (member for member in vars(_core).values() if isinstance(member, type)):
     if _kind.__name__ not in ("Device", "Diagram", "DeviceDiagram", "Domain", "TransportSolver"):
@@ -114,6 +115,7 @@ __all__ = [
     "TransportSolver",
     "Treemap",
     "UnusableDevice",
+    "Voronoi",
     "ball",
     "compute_distributed",
     "compute_out_of_core",
@@ -141,4 +143,5 @@ __all__ = [
     "transport",
     "treemap",
     "unusable_devices",
+    "voronoi",
 ]

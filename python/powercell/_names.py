@@ -101,14 +101,14 @@ class Record(SimpleNamespace):
     """The fields of a result that was copied or came from another process, in place of its class."""
 
     def __repr__(self) -> str:
-        return _lines(self._kind, {name: value for name, value in vars(self).items() if name != "_kind"})
+        return lines_of(self._kind, {name: value for name, value in vars(self).items() if name != "_kind"})
 
 
 def _record(kind: str, fields: dict[str, Any]) -> Record:
     return Record(_kind=kind, **fields)
 
 
-def _lines(kind: str, fields: dict[str, Any]) -> str:
+def lines_of(kind: str, fields: dict[str, Any]) -> str:
     values = {name: _shown(value) for name, value in fields.items()}
     line = f"{kind}({', '.join(map('='.join, values.items()))})"
     if len(line) <= 100:
@@ -126,5 +126,5 @@ def show_fields(kind: type) -> None:
     def fields(self: Any) -> dict[str, Any]:
         return {name: getattr(self, name) for name in names}
 
-    setattr(kind, "__repr__", lambda self: _lines(kind.__name__, fields(self)))
+    setattr(kind, "__repr__", lambda self: lines_of(kind.__name__, fields(self)))
     setattr(kind, "__reduce__", lambda self: (_record, (kind.__name__, fields(self))))
