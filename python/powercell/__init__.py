@@ -57,6 +57,7 @@ from ._errors import Error  # noqa: E402
 from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
 from ._names import show_fields  # noqa: E402
+from ._order import minkowski  # noqa: E402
 from ._out_of_core import compute_out_of_core  # noqa: E402
 from ._outside import HiddenSeedsWarning, SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
@@ -127,6 +128,7 @@ __all__ = [
     "measure_device_rates",
     "measure_device_transfers",
     "mesh_quality",
+    "minkowski",
     "prepare",
     "random_points",
     "read_domain",

@@ -17,7 +17,7 @@ from ._names import named_arguments, unknown_result
 from ._options import diagram_options, float_type
 from ._outside import warn_of_hidden_seeds, warn_of_seeds_outside
 from ._progress import Progress, fraction_bar, progress_function
-from ._results import Adjacency, BoundaryWalls, Status
+from ._results import Adjacency, BoundaryWalls, Place, Status
 from ._shown import Shown
 
 
@@ -280,7 +280,8 @@ class Diagram(Shown):
     def adjacency(self) -> Adjacency:
         if self._progress:
             self.compute(adjacency=True)
-        return Adjacency(self._core.adjacency(), len(self), self.domain.dimension, self._dtype)
+        place = Place(self._positions, self.domain.periods, self._selection)
+        return Adjacency(self._core.adjacency(), len(self), self.domain.dimension, self._dtype, place)
 
     @property
     def boundary_walls(self) -> BoundaryWalls:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 from functools import cached_property
-from typing import Any, Optional
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,23 @@ class Status(enum.IntEnum):
     """Its cell in the domain is empty."""
     DUPLICATE = 2
     """Another seed at the same position has a larger weight, or the same and a lower index."""
+
+
+class Pairs(NamedTuple):
+    """Each wall once. See :meth:`Adjacency.pairs`."""
+
+    i: NDArray[Any]
+    j: NDArray[Any]
+    vector: NDArray[np.float64]
+    measure: NDArray[Any]
+
+
+class Place(NamedTuple):
+    """Where the seeds of an adjacency are."""
+
+    positions: NDArray[np.float64]
+    periods: NDArray[np.float64]
+    rows: Optional[NDArray[Any]]  # the seed of each row; None for all seeds
 
 
 class Adjacency:
@@ -42,8 +59,11 @@ class Adjacency:
         neighbour moved by ``shift @ periods``.
     """
 
-    def __init__(self, core: Any, seeds: int, dimension: int, dtype: Any = np.float64) -> None:
+    def __init__(
+        self, core: Any, seeds: int, dimension: int, dtype: Any = np.float64, place: Optional[Place] = None
+    ) -> None:
         self._core = core
+        self._place = place
         self._seeds = seeds
         self._dimension = dimension
         self._dtype = dtype
@@ -79,6 +99,49 @@ class Adjacency:
         if not 0 <= seed < len(self.indptr) - 1:
             raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
         return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
+
+    def sides(self) -> Pairs:
+        """Each wall from each of its cells, in the order of ``indices``. As :meth:`pairs`."""
+        if self._place is None:
+            raise ValueError("this adjacency has no positions; take that of a Diagram")
+        positions, periods, rows = self._place
+        i = np.repeat(np.arange(len(self.indptr) - 1) if rows is None else np.asarray(rows), np.diff(self.indptr))
+        j = self.indices
+        vector = positions[j] - positions[i]
+        if self.shift is not None:
+            vector += self.shift @ periods
+        return Pairs(i, j, vector, self.data)
+
+    def pairs(self) -> Pairs:
+        """Each wall once.
+
+        Returns
+        -------
+        i, j : (p,) int
+            Its seeds, i <= j; of a selection i is selected.
+        vector : (p, d) float64
+            From seed i to seed j, in a periodic domain to the image of j beyond the wall.
+        measure : (p,)
+            Length or area of the wall.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> box = pc.Domain.box([0, 0], [3, 1], periodic=[True, False])
+        >>> pairs = pc.Diagram(box, [[0.5, 0.5], [1.5, 0.5], [2.5, 0.5]]).adjacency.pairs()
+        >>> pairs.i.tolist(), pairs.j.tolist(), pairs.vector[:, 0].tolist(), pairs.measure.tolist()
+        ([0, 0, 1], [1, 2, 2], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0])
+        """
+        i, j, vector, measure = self.sides()
+        once = i < j
+        if self.shift is not None:  # of a seed and its own image the first in the order of shifts
+            leading = np.zeros(len(i), dtype=np.int64)
+            for axis in range(self._dimension - 1, -1, -1):
+                leading = np.where(self.shift[:, axis] != 0, self.shift[:, axis], leading)
+            once |= (i == j) & (leading > 0)
+        if self._place is not None and self._place.rows is not None:
+            once |= ~np.isin(j, self._place.rows)
+        return Pairs(i[once], j[once], vector[once], measure[once])
 
     def to_scipy(self) -> Any:
         """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed.
