@@ -15,24 +15,24 @@ namespace powercell {
 namespace {
 
 template <std::size_t C>
-using Row = std::array<std::uint32_t, C>;
+using Simplex = std::array<std::uint32_t, C>;
 
 /// The seeds of a row in ascending order.
 /// \pre a row starts with its smallest seed
-Row<3> key(const Row<3>& row) {
-  return row[1] < row[2] ? row : Row<3>{row[0], row[2], row[1]};
+Simplex<3> key(const Simplex<3>& row) {
+  return row[1] < row[2] ? row : Simplex<3>{row[0], row[2], row[1]};
 }
-Row<4> key(const Row<4>& row) {
+Simplex<4> key(const Simplex<4>& row) {
   return row;
 }
 
 template <std::size_t C>
-bool by_key(const Row<C>& a, const Row<C>& b) {
+bool by_key(const Simplex<C>& a, const Simplex<C>& b) {
   return key(a) < key(b);
 }
 
 template <std::size_t C>
-void keep_distinct(std::vector<Row<C>>& rows, std::size_t begin) {
+void keep_distinct(std::vector<Simplex<C>>& rows, std::size_t begin) {
   const auto first = rows.begin() + static_cast<std::ptrdiff_t>(begin);
   if constexpr (C == 3) {
     std::stable_sort(first, rows.end(), by_key<C>);  // the first one found determines the orientation
@@ -57,7 +57,7 @@ void corners_of_polygon(const Cells& cells, std::uint32_t cell, std::size_t piec
     const Border& in = cells.border[k == begin ? end - 1 : k - 1];
     const Border& out = cells.border[k];
     if (!is_wall(in) || !is_wall(out) || in.index == out.index) continue;
-    Row<3> row{cell, in.index, out.index};
+    Simplex<3> row{cell, in.index, out.index};
     std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
     found(row);
   }
@@ -86,7 +86,7 @@ void corners_of_polyhedron(const Cells& cells, std::uint32_t cell, std::size_t p
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     if (around.count[v] != 3) continue;
-    Row<4> row{cell, around.wall[v][0], around.wall[v][1], around.wall[v][2]};
+    Simplex<4> row{cell, around.wall[v][0], around.wall[v][1], around.wall[v][2]};
     std::sort(row.begin(), row.end());
     if (std::adjacent_find(row.begin(), row.end()) == row.end()) found(row);
   }
@@ -95,7 +95,7 @@ void corners_of_polyhedron(const Cells& cells, std::uint32_t cell, std::size_t p
 /// False if a seed of the row is hidden. Cells may have edges of length 0 with such a seed, where its
 /// bisector contains a facet of the boundary.
 template <std::size_t C>
-bool all_have_cells(const Cells& cells, const Row<C>& row) {
+bool all_have_cells(const Cells& cells, const Simplex<C>& row) {
   return std::all_of(row.begin(), row.end(), [&](std::uint32_t seed) {
     return cells.cell_offset[seed] < cells.cell_offset[std::size_t{seed} + 1];
   });
@@ -103,7 +103,7 @@ bool all_have_cells(const Cells& cells, const Row<C>& row) {
 
 template <std::size_t C, class Found>
 void corners_of_cell(const Cells& cells, std::uint32_t cell, Incidence& around, const Found& any) {
-  const auto found = [&](const Row<C>& row) {
+  const auto found = [&](const Simplex<C>& row) {
     if (all_have_cells(cells, row)) any(row);
   };
   for (std::uint64_t p = cells.cell_offset[cell]; p < cells.cell_offset[cell + 1]; ++p) {
@@ -119,21 +119,21 @@ void corners_of_cell(const Cells& cells, std::uint32_t cell, Incidence& around, 
 /// takes simplices from there, which are then sorted already. It lacks corners on the border between two of
 /// its regions; a second pass takes those from the other cells.
 template <std::size_t C>
-std::vector<Row<C>> collect(const Cells& cells) {
+std::vector<Simplex<C>> collect(const Cells& cells) {
   const std::uint32_t n = static_cast<std::uint32_t>(cells.cell_count());
-  std::vector<Row<C>> rows;
+  std::vector<Simplex<C>> rows;
   std::vector<std::uint64_t> offset(std::size_t{n} + 1, 0);
   Incidence around;
   for (std::uint32_t i = 0; i < n; ++i) {
-    corners_of_cell<C>(cells, i, around, [&](const Row<C>& row) {
+    corners_of_cell<C>(cells, i, around, [&](const Simplex<C>& row) {
       if (row[0] == i) rows.push_back(row);
     });
     keep_distinct(rows, offset[i]);
     offset[std::size_t{i} + 1] = rows.size();
   }
-  std::vector<Row<C>> missed;
+  std::vector<Simplex<C>> missed;
   for (std::uint32_t i = 0; i < n; ++i) {
-    corners_of_cell<C>(cells, i, around, [&](const Row<C>& row) {
+    corners_of_cell<C>(cells, i, around, [&](const Simplex<C>& row) {
       if (row[0] == i) return;
       const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(offset[row[0]]);
       const auto end = rows.begin() + static_cast<std::ptrdiff_t>(offset[std::size_t{row[0]} + 1]);
@@ -153,10 +153,10 @@ std::vector<Row<C>> collect(const Cells& cells) {
 /// positions differ in scale by more than its extra bits. If the determinant is below `rounding` times the
 /// product of the edge lengths, its sign is computed exactly.
 template <std::size_t C>
-void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
+void orient(std::vector<Simplex<C>>& rows, const SeedsView& seeds) {
   constexpr std::size_t d = C - 1;
   constexpr long double rounding = 16 * std::numeric_limits<long double>::epsilon();
-  for (Row<C>& row : rows) {
+  for (Simplex<C>& row : rows) {
     long double e[d][d], scale = rounding;
     for (std::size_t k = 0; k < d; ++k) {
       long double squared = 0;
@@ -181,29 +181,29 @@ void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
 }
 
 template <std::size_t C>
-Dual finish(std::vector<Row<C>> rows) {
+Dual finish(std::vector<Simplex<C>> rows) {
   // Orientation changed the order only among rows with the same smallest seed.
   for (auto begin = rows.begin(); begin != rows.end();) {
     const auto end =
-        std::find_if(begin, rows.end(), [&](const Row<C>& row) { return row[0] != (*begin)[0]; });
+        std::find_if(begin, rows.end(), [&](const Simplex<C>& row) { return row[0] != (*begin)[0]; });
     std::sort(begin, end);
     begin = end;
   }
   Dual dual;
   dual.corners = C;
   dual.simplices.reserve(C * rows.size());
-  for (const Row<C>& row : rows) dual.simplices.insert(dual.simplices.end(), row.begin(), row.end());
+  for (const Simplex<C>& row : rows) dual.simplices.insert(dual.simplices.end(), row.begin(), row.end());
   return dual;
 }
 
 /// All rows start ascending; orient() may exchange their last two seeds.
 template <std::size_t C>
 Dual extended(const Dual& dual, const std::vector<std::uint32_t>& more, const SeedsView& seeds) {
-  std::vector<Row<C>> rows;
+  std::vector<Simplex<C>> rows;
   rows.reserve((dual.simplices.size() + more.size()) / C);
   for (const std::vector<std::uint32_t>* from : {&dual.simplices, &more})
     for (std::size_t at = 0; at < from->size(); at += C) {
-      Row<C> row;
+      Simplex<C> row;
       std::copy_n(from->begin() + static_cast<std::ptrdiff_t>(at), C, row.begin());
       std::sort(row.begin(), row.end());
       rows.push_back(row);
@@ -221,7 +221,7 @@ std::vector<std::uint32_t> corners_of_cells(const Cells& cells) {
   for (std::uint32_t i = 0; i < cells.cell_count(); ++i)
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
       corners_of_polyhedron(cells, i, p, around,
-                            [&](const Row<4>& row) { rows.insert(rows.end(), row.begin(), row.end()); });
+                            [&](const Simplex<4>& row) { rows.insert(rows.end(), row.begin(), row.end()); });
   return rows;
 }
 
@@ -231,11 +231,11 @@ Dual extend_dual(const Dual& dual, const std::vector<std::uint32_t>& rows, const
 
 Dual make_dual(const Cells& cells, const SeedsView& seeds) {
   if (cells.cell_dimension == 3) {
-    std::vector<Row<4>> rows = collect<4>(cells);
+    std::vector<Simplex<4>> rows = collect<4>(cells);
     orient(rows, seeds);
     return finish(std::move(rows));
   }
-  std::vector<Row<3>> rows = collect<3>(cells);
+  std::vector<Simplex<3>> rows = collect<3>(cells);
   if (cells.dimension == 2) orient(rows, seeds);
   return finish(std::move(rows));
 }

@@ -30,7 +30,7 @@ void check_lengths(double shortest, double longest, const std::string& what) {
       "bounded axis of a periodic box");
 }
 
-double length(const Period::Row& v) {
+double length(const Period::Coordinates& v) {
   return norm(Vector3<double>(v));
 }
 
@@ -100,7 +100,7 @@ Period Period::of_lattice(std::span<const double> vectors, std::span<const doubl
   period.set_dual();
   for (std::size_t k = 0; k < d; ++k)
     for (std::size_t c = 0; c < d; ++c) basis[k].x[c] = period.vector_[k][c];
-  const Row extent = extent_of_voronoi_cell(basis, period.dual_);
+  const Coordinates extent = extent_of_voronoi_cell(basis, period.dual_);
   for (std::size_t k = 0; k < d; ++k) period.reach_[k] = 2 * extent[k];
   period.set_room();
   period.set_grid();
@@ -170,16 +170,16 @@ void Period::set_dual() {
   for (int k = 0; k < count_; ++k) spacing_[at(k)] = 1 / length(dual_[at(k)]);
 }
 
-Period::Row Period::fraction(const double* x) const {
-  Row f{};
+Period::Coordinates Period::fraction(const double* x) const {
+  Coordinates f{};
   for (int k = 0; k < count_; ++k)
     for (std::size_t c = 0; c < static_cast<std::size_t>(dimension_); ++c)
       f[at(k)] += dual_[at(k)][c] * (x[c] - origin_[c]);
   return f;
 }
 
-Period::Row Period::moved(const double* x, const Shift& shift) const {
-  Row y{};
+Period::Coordinates Period::moved(const double* x, const Shift& shift) const {
+  Coordinates y{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(dimension_); ++c) {
     double by = 0;
     for (int k = 0; k < count_; ++k) by += shift[at(k)] * vector(k)[c];
@@ -195,8 +195,8 @@ std::array<std::int64_t, 3> Period::as_given(const Shift& shift) const {
   return given;
 }
 
-Period::Row Period::sum_given(const Shift& shift) const {
-  Row sum{};
+Period::Coordinates Period::sum_given(const Shift& shift) const {
+  Coordinates sum{};
   for (std::size_t c = 0; c < 3; ++c) {
     long double x = 0;
     for (std::size_t k = 0; k < 3; ++k) x += static_cast<long double>(shift[k]) * given_[k][c];

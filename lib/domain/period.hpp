@@ -19,7 +19,7 @@ using Shift = std::array<std::int32_t, 3>;
 /// matter are then doubles without rounding.
 class Period {
  public:
-  using Row = std::array<double, 3>;
+  using Coordinates = std::array<double, 3>;
 
   /// Of a box with periodic axes: the vectors are its edges along these.
   /// \throw Error invalid_domain
@@ -29,36 +29,36 @@ class Period {
   static Period of_lattice(std::span<const double> vectors, std::span<const double> origin);
 
   int dimension() const { return dimension_; }
-  int count() const { return count_; }                       ///< of the vectors of the reduced basis
-  const Row& vector(int k) const { return vector_[at(k)]; }  ///< of the reduced basis
-  double spacing(int k) const { return spacing_[at(k)]; }    ///< between planes of the lattice along vector k
+  int count() const { return count_; }                               ///< of the vectors of the reduced basis
+  const Coordinates& vector(int k) const { return vector_[at(k)]; }  ///< of the reduced basis
+  double spacing(int k) const { return spacing_[at(k)]; }  ///< between planes of the lattice along vector k
   /// Seeds whose difference has a larger fraction() along vector k share no wall.
   double reach(int k) const { return reach_[at(k)]; }
   double measure() const { return measure_; }                       ///< of a box or of a cell of the lattice
   bool is_periodic(int axis) const { return periodic_[at(axis)]; }  ///< along vector `axis` as given
-  const Row& given(int axis) const { return given_[at(axis)]; }     ///< the vectors as given
+  const Coordinates& given(int axis) const { return given_[at(axis)]; }  ///< the vectors as given
   /// The box that contains every cell of a wrapped seed, in its periodic directions with room to spare.
-  const Row& room_low() const { return room_low_; }
-  const Row& room_high() const { return room_high_; }
+  const Coordinates& room_low() const { return room_low_; }
+  const Coordinates& room_high() const { return room_high_; }
 
   /// The coordinates of a point in the reduced basis, from the origin.
-  Row fraction(const double* x) const;
+  Coordinates fraction(const double* x) const;
   /// `x` moved by a shift in the reduced basis: exact for wrapped seeds and images that can matter.
-  Row moved(const double* x, const Shift& shift) const;
+  Coordinates moved(const double* x, const Shift& shift) const;
   /// A shift in the reduced basis as one in the vectors as given.
   std::array<std::int64_t, 3> as_given(const Shift& shift) const;
   /// The sum of a shift in the vectors as given.
-  Row sum_given(const Shift& shift) const;
+  Coordinates sum_given(const Shift& shift) const;
 
   struct Wrapped {
-    Row position;  ///< with fractions from 0 to below 1, but for rounding
-    Shift shift;   ///< from there to the point, in the vectors as given
-    bool is_far;   ///< the point is more than 2^28 vectors away; the rest is then not good
+    Coordinates position;  ///< with fractions from 0 to below 1, but for rounding
+    Shift shift;           ///< from there to the point, in the vectors as given
+    bool is_far;           ///< the point is more than 2^28 vectors away; the rest is then not good
   };
   Wrapped wrap(const double* x) const;
   /// The same in integers, for devices.
   const PeriodGrid& grid() const { return grid_; }
-  const Row& quantum() const { return quantum_; }  ///< 0 for coordinates that are not rounded
+  const Coordinates& quantum() const { return quantum_; }  ///< 0 for coordinates that are not rounded
 
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -71,9 +71,9 @@ class Period {
   int dimension_ = 0, count_ = 0;
   bool is_box_ = false;
   std::array<bool, 3> periodic_{}, rounded_{};  ///< by vector as given; by coordinate
-  std::array<Row, 3> given_{}, vector_{}, dual_{};
+  std::array<Coordinates, 3> given_{}, vector_{}, dual_{};
   std::array<std::array<std::int64_t, 3>, 3> of_given_{};  ///< per vector of the reduced basis
-  Row origin_{}, quantum_{}, spacing_{}, reach_{}, room_low_{}, room_high_{};
+  Coordinates origin_{}, quantum_{}, spacing_{}, reach_{}, room_low_{}, room_high_{};
   double measure_ = 0;
   PeriodGrid grid_;
 };

@@ -12,11 +12,11 @@ namespace powercell {
 
 /// What the lattice is made of.
 struct PeriodVectors {
-  using Row = std::array<double, 3>;
+  using Coordinates = std::array<double, 3>;
   int count = 0;  ///< of vectors
   bool is_box = false;
-  std::array<Row, 3> vector{}, dual{};
-  Row origin{}, quantum{};                                ///< quantum: 0 for coordinates that are not rounded
+  std::array<Coordinates, 3> vector{}, dual{};
+  Coordinates origin{}, quantum{};                        ///< quantum: 0 for coordinates that are not rounded
   std::array<std::array<std::int64_t, 3>, 3> of_given{};  ///< each vector in those given
 };
 

@@ -161,17 +161,17 @@ bool NearBoundary::find_leaves(const BoundaryLeaves& boundary, std::size_t k, do
 }
 
 POWERCELL_VECTOR_COPIES
-NearBoundary::Row NearBoundary::measure(const double* boundary_seeds) {
+NearBoundary::Distances NearBoundary::measure(const double* boundary_seeds) {
   const std::size_t d = seeds_.dimension();
-  std::array<Row, 3> boundary;  // by axis, so that the loops below are over vectors
+  std::array<Distances, 3> boundary;  // by axis, so that the loops below are over vectors
   for (std::size_t k = 0; k < d; ++k)
     for (std::size_t a = 0; a < PackedTree::fan; ++a) boundary[k][a] = boundary_seeds[a * d + k];
-  Row least;
+  Distances least;
   least.fill(std::numeric_limits<double>::infinity());
   distance2_.clear();
   for (const std::uint32_t leaf : leaves_)
     for (std::size_t rank = seeds_.first_of(leaf); rank < seeds_.first_of(leaf + std::size_t{1}); ++rank) {
-      Row row{};
+      Distances row{};
       if (is_own(rank)) {
         row.fill(std::numeric_limits<double>::infinity());
       } else {
@@ -191,13 +191,13 @@ void NearBoundary::find(const BoundaryLeaves& boundary, std::size_t k, std::vect
   const std::size_t d = seeds_.dimension();
   const double far = farthest * boundary.spacing[k];
   if (!find_leaves(boundary, k, far)) return;
-  Row nearest = measure(&boundary.seed[k * PackedTree::fan * d]);
+  Distances nearest = measure(&boundary.seed[k * PackedTree::fan * d]);
   for (double& distance : nearest) distance = std::sqrt(distance);
   const Spacing spacing(tree_);
   std::size_t at = 0;
   for (const std::uint32_t leaf : leaves_) {
     const double h = spacing(leaf);
-    Row limit2;
+    Distances limit2;
     for (std::size_t a = 0; a < limit2.size(); ++a) {
       const double limit = std::max(depth * h, nearest[a] + layer * h);
       limit2[a] = nearest[a] <= far ? limit * limit : -1;

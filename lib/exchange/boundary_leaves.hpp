@@ -46,21 +46,21 @@ class NearBoundary {
   void find(const BoundaryLeaves& boundary, std::size_t k, std::vector<std::uint32_t>& ranks);
 
  private:
-  using Row = std::array<double, PackedTree::fan>;  // by seed of the boundary's leaf
+  using Distances = std::array<double, PackedTree::fan>;  // by seed of the boundary's leaf
 
   /// Lists leaves that may contain likely neighbours.
   /// \return whether there are few
   bool find_leaves(const BoundaryLeaves& boundary, std::size_t k, double far);
   /// Computes squared distances to all seeds of these leaves.
   /// \return the smallest for each seed of the boundary leaf
-  Row measure(const double* boundary_seeds);
+  Distances measure(const double* boundary_seeds);
   bool is_own(std::size_t rank) const { return own_.first <= rank && rank < own_.second; }
 
   TreeSeeds seeds_;
   const PackedTree& tree_;
   std::pair<std::size_t, std::size_t> own_;
   std::vector<std::uint32_t> leaves_;
-  std::vector<Row> distance2_;  // by seed in these leaves
+  std::vector<Distances> distance2_;  // by seed in these leaves
 };
 
 }  // namespace powercell::exchange

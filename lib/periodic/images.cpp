@@ -40,7 +40,7 @@ struct ShiftRange {
 
   /// \param f  the seed's fractions
   /// \param margin  along each vector; below 0 the range is empty
-  ShiftRange(const Period& period, const Period::Row& f, const std::array<double, 3>& margin) {
+  ShiftRange(const Period& period, const Period::Coordinates& f, const std::array<double, 3>& margin) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(period.count()); ++k) {
       low[k] = static_cast<std::int32_t>(std::ceil(-margin[k] - f[k]));
       high[k] = static_cast<std::int32_t>(std::floor(1 + margin[k] - f[k]));
@@ -109,11 +109,11 @@ void append_within(Images& images, const Period& period, const MarginOf& margin_
   for (std::uint32_t r = 0; r < images.own; ++r) {
     if (has_images && margin_of(r) <= images.margin_of(r)) continue;
     const double* const x = &images.seeds.positions[r * d];
-    const Period::Row f = period.fraction(x);
+    const Period::Coordinates f = period.fraction(x);
     const ShiftRange old(period, f, margins(period, images.margin_of(r)));
     ShiftRange(period, f, margins(period, margin_of(r))).for_each([&](const Shift& s) {
       if (s == Shift{} || (has_images && old.contains(s))) return;
-      const Period::Row y = period.moved(x, s);
+      const Period::Coordinates y = period.moved(x, s);
       positions.insert(positions.end(), y.begin(), y.begin() + static_cast<std::ptrdiff_t>(d));
       rank.push_back(r);
       shift.push_back(s);
@@ -215,7 +215,7 @@ double MarginProof::clearance(std::uint32_t rank, double reach) const {
 }
 
 double MarginProof::margin_for(std::uint32_t rank, double clearance) const {
-  const Period::Row f =
+  const Period::Coordinates f =
       period_.fraction(&images_.seeds.positions[rank * static_cast<std::size_t>(images_.seeds.dimension)]);
   double needed = 0;
   for (int k = 0; k < period_.count(); ++k) {

@@ -113,7 +113,7 @@ class Owners {
     const Vector y = x - rounding_.position(i);
     const double at[3] = {static_cast<double>(y[0]), static_cast<double>(y[1]), static_cast<double>(y[2])},
                  zero[3] = {};
-    const Period::Row fraction = period_->fraction(at), origin = period_->fraction(zero);
+    const Period::Coordinates fraction = period_->fraction(at), origin = period_->fraction(zero);
     Vector middle{};
     int combinations = 1;
     for (int k = 0; k < period_->count(); ++k) {
@@ -130,7 +130,7 @@ class Owners {
     return best;
   }
   Vector vector_of(int k) const {
-    const Period::Row& v = period_->vector(k);
+    const Period::Coordinates& v = period_->vector(k);
     return {v[0], v[1], v[2]};
   }
 

@@ -7,7 +7,7 @@
 namespace powercell {
 namespace {
 
-using Row = Period::Row;
+using Coordinates = Period::Coordinates;
 
 class Unfolder {
  public:
@@ -28,13 +28,13 @@ class Unfolder {
 
   /// The index of the image of seed j that a face of cell i names.
   std::uint32_t image(std::size_t i, std::uint32_t j, const Shift& shift) {
-    const Row by = period_.sum_given(shift);
-    Row there{}, here{};
+    const Coordinates by = period_.sum_given(shift);
+    Coordinates there{}, here{};
     for (std::size_t c = 0; c < d_; ++c) {
       there[c] = given_[j * d_ + c] + by[c] + moved(i, c);
       here[c] = wrapped_[j * d_ + c];
     }
-    const Row to = period_.fraction(there.data()), from = period_.fraction(here.data());
+    const Coordinates to = period_.fraction(there.data()), from = period_.fraction(here.data());
     Shift reduced{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(period_.count()); ++k)
       reduced[k] = static_cast<std::int32_t>(std::lround(to[k] - from[k]));
@@ -42,7 +42,7 @@ class Unfolder {
     const auto [found, is_new] =
         known_.emplace(std::pair(j, reduced), static_cast<std::uint32_t>(out_.weights.size()));
     if (is_new) {
-      const Row place = period_.moved(here.data(), reduced);
+      const Coordinates place = period_.moved(here.data(), reduced);
       out_.positions.insert(out_.positions.end(), place.begin(), place.begin() + static_cast<long>(d_));
       out_.weights.push_back(out_.weights[j]);
     }

@@ -59,7 +59,7 @@ void check_host(const Domain& domain, const SeedArray& seeds) {
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const Period::Wrapped at = period.wrap(&seeds.positions[i * d]);
     if (at.is_far) continue;
-    const Period::Row f = period.fraction(at.position.data());
+    const Period::Coordinates f = period.fraction(at.position.data());
     for (int k = 0; k < period.count(); ++k)
       outside += !(f[static_cast<std::size_t>(k)] >= -2e-9 && f[static_cast<std::size_t>(k)] <= 1 + 2e-9);
     for (std::size_t c = 0; c < d; ++c) {

@@ -11,15 +11,15 @@
 namespace powercell::remeshing {
 namespace {
 
-using Row = std::array<std::uint32_t, 3>;
+using Corners = std::array<std::uint32_t, 3>;
 
 /// The points where three cells meet, as triangles of seeds. Each of the three cells has the point as a
 /// corner between two walls; in cell i the order around it is (i, seed behind the edge that ends there, seed
 /// behind the edge that starts there).
 /// \param inconsistent  output: seeds of cells that disagree about a corner
-std::vector<Row> triple_points(const LocalDiagram& diagram, std::vector<std::uint32_t>& inconsistent) {
-  std::vector<Row> triangles;
-  std::vector<Row> seen;  // in one triangle of the surface
+std::vector<Corners> triple_points(const LocalDiagram& diagram, std::vector<std::uint32_t>& inconsistent) {
+  std::vector<Corners> triangles;
+  std::vector<Corners> seen;  // in one triangle of the surface
   for (std::uint32_t t = 0; t < diagram.surface().size(); ++t) {
     seen.clear();
     for (const std::uint32_t p : diagram.pieces_in(t)) {
@@ -27,7 +27,7 @@ std::vector<Row> triple_points(const LocalDiagram& diagram, std::vector<std::uin
       for (std::size_t v = 0; v < piece.ring.size(); ++v) {
         const int in = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1].edge, out = piece.ring[v].edge;
         if (in < 0 || out < 0) continue;
-        Row row{piece.seed, static_cast<std::uint32_t>(in), static_cast<std::uint32_t>(out)};
+        Corners row{piece.seed, static_cast<std::uint32_t>(in), static_cast<std::uint32_t>(out)};
         std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
         seen.push_back(row);
       }

@@ -49,7 +49,7 @@ class Fit {
 
   /// The corners of the farthest triangles, ascending.
   std::vector<std::uint32_t> far_vertices() const {
-    const std::vector<WorkMesh::Row>& rows = mesh_.triangles();
+    const std::vector<WorkMesh::Corners>& rows = mesh_.triangles();
     std::vector<double> distance(rows.size());
     for (std::size_t t = 0; t < rows.size(); ++t) {
       if (rows[t][0] == rows[t][1]) continue;

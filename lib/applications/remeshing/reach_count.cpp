@@ -9,7 +9,7 @@
 namespace powercell::remeshing {
 namespace {
 
-using Row = WorkMesh::Row;
+using Corners = WorkMesh::Corners;
 
 /// The length of an edge in units of h.
 double relative_length(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b) {
@@ -19,9 +19,9 @@ double relative_length(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b) {
 /// Whether no remaining triangle turns over when vertex a is collapsed into b.
 bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, std::uint32_t b) {
   for (const std::uint32_t t : mesh.around(a)) {
-    const Row& row = mesh.triangle(t);
+    const Corners& row = mesh.triangle(t);
     if (std::find(row.begin(), row.end(), b) != row.end()) continue;
-    Row after = row;
+    Corners after = row;
     std::replace(after.begin(), after.end(), a, b);
     if (turns_over(mesh, surface, row, after)) return false;
   }

@@ -10,7 +10,7 @@
 namespace powercell::remeshing {
 namespace {
 
-using Row = WorkMesh::Row;
+using Corners = WorkMesh::Corners;
 
 using Cost = double (*)(Vec, Vec, Vec);  ///< cost of a triangle by its corners, lower is better
 
@@ -57,7 +57,7 @@ Vec centroid_around(const WorkMesh& mesh, std::uint32_t v) {
   Vec sum;
   double weight = 0;
   for (const std::uint32_t t : mesh.around(v)) {
-    const Row& row = mesh.triangle(t);
+    const Corners& row = mesh.triangle(t);
     const Vec a = mesh.at(row[0]), b = mesh.at(row[1]), c = mesh.at(row[2]);
     const double h = (mesh.vertex(row[0]).h + mesh.vertex(row[1]).h + mesh.vertex(row[2]).h) / 3;
     const double w = norm(normal_of(a, b, c)) / (h * h * h * h);
@@ -104,7 +104,7 @@ bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
 double distortion_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, const Place& to) {
   double sum = 0;
   for (const std::uint32_t t : mesh.around(v)) {
-    const Row& row = mesh.triangle(t);
+    const Corners& row = mesh.triangle(t);
     const std::size_t k = row[0] == v ? 0 : row[1] == v ? 1 : 2;
     const Vec b = mesh.at(row[(k + 1) % 3]), c = mesh.at(row[(k + 2) % 3]);
     if (turns_over(mesh, surface, row, row, v, to)) return worst;
@@ -134,7 +134,7 @@ void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progr
 void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes, Progress progress) {
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<std::uint32_t> bad;
-    for (const Row& row : mesh.triangles())
+    for (const Corners& row : mesh.triangles())
       if (row[0] != row[1] && shape_cost(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])) > 1)
         bad.insert(bad.end(), row.begin(), row.end());
     std::sort(bad.begin(), bad.end());

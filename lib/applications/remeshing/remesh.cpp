@@ -61,7 +61,7 @@ void store(const WorkMesh& mesh, const Frame& frame, RemeshResult& result) {
     result.fixed.push_back(mesh.vertex(v).kind != Hold::Kind::free);
     result.sizing.push_back(mesh.vertex(v).h * frame.length);
   }
-  for (const WorkMesh::Row& row : mesh.triangles())
+  for (const WorkMesh::Corners& row : mesh.triangles())
     if (row[0] != row[1])
       for (const std::uint32_t v : row) result.mesh.triangles.push_back(number[v]);
 }

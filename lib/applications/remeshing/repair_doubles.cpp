@@ -9,9 +9,9 @@
 namespace powercell::remeshing {
 namespace {
 
-using Row = std::array<std::uint32_t, 3>;
+using Corners = std::array<std::uint32_t, 3>;
 
-Row sorted(Row row) {
+Corners sorted(Corners row) {
   std::sort(row.begin(), row.end());
   return row;
 }
@@ -21,7 +21,7 @@ template <class Key>
 std::vector<std::uint32_t> first_with_same(std::size_t count, const Key& key) {
   std::vector<std::uint32_t> order(count), first(count);
   std::iota(order.begin(), order.end(), 0u);
-  std::vector<Row> keys(count);
+  std::vector<Corners> keys(count);
   for (std::uint32_t t = 0; t < count; ++t) keys[t] = sorted(key(t));
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
@@ -60,12 +60,12 @@ void drop(Patchwork& mesh, const std::vector<bool>& marked, RepairCount& what) {
 }  // namespace
 
 void drop_doubles(Patchwork& mesh, std::span<const std::uint32_t> same, RepairReport& report) {
-  const auto place = [&](std::uint32_t t) -> Row {
+  const auto place = [&](std::uint32_t t) -> Corners {
     return {same[mesh.row[t][0]], same[mesh.row[t][1]], same[mesh.row[t][2]]};
   };
   std::vector<bool> marked(mesh.row.size());
   for (std::uint32_t t = 0; t < mesh.row.size(); ++t) {
-    const Row at = place(t);
+    const Corners at = place(t);
     marked[t] = at[0] == at[1] || at[1] == at[2] || at[2] == at[0];
   }
   drop(mesh, marked, report.degenerate);

@@ -9,7 +9,7 @@
 namespace powercell::remeshing {
 namespace {
 
-using Row = std::array<std::uint32_t, 3>;
+using Corners = std::array<std::uint32_t, 3>;
 
 class Flattener {
  public:
@@ -20,7 +20,7 @@ class Flattener {
   }
 
   bool is_flat(std::uint32_t t) const {  // or has an edge that is too short
-    const Row& row = mesh_.row[t];
+    const Corners& row = mesh_.row[t];
     if (row[0] == row[1]) return false;  // removed
     const Vec a = at(row[0]), b = at(row[1]), c = at(row[2]);
     const double longest2 = std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
@@ -60,7 +60,7 @@ class Flattener {
   Vec at(std::uint32_t v) const { return mesh_.vertex[v]; }
 
   bool remove(std::uint32_t t) {
-    const Row row = mesh_.row[t];
+    const Corners row = mesh_.row[t];
     std::array<double, 3> length{};
     for (std::size_t k = 0; k < 3; ++k) length[k] = norm(at(row[(k + 1) % 3]) - at(row[k]));
     const auto longest =
@@ -89,7 +89,7 @@ class Flattener {
       erase(t);
       return true;
     }
-    const Row other = mesh_.row[s];
+    const Corners other = mesh_.row[s];
     std::size_t j = 0;
     while (other[j] == a || other[j] == b) ++j;
     const std::uint32_t d = other[j];
@@ -112,7 +112,7 @@ class Flattener {
     if (on_boundary(u) && !on_boundary(v)) std::swap(u, v);
     for (const std::uint32_t t : gone) erase(t);
     for (const std::uint32_t t : std::vector<std::uint32_t>(around_[u])) {
-      Row row = mesh_.row[t];
+      Corners row = mesh_.row[t];
       std::replace(row.begin(), row.end(), u, v);
       set(t, row);
       touched_.push_back(t);
@@ -137,7 +137,7 @@ class Flattener {
     return std::binary_search(of_a.begin(), of_a.end(), b);
   }
 
-  void set(std::uint32_t t, const Row& row) {
+  void set(std::uint32_t t, const Corners& row) {
     for (const std::uint32_t v : mesh_.row[t])
       if (auto& list = around_[v]; std::find(list.begin(), list.end(), t) != list.end())
         list.erase(std::find(list.begin(), list.end(), t));

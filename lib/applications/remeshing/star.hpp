@@ -17,7 +17,7 @@ constexpr double worst = std::numeric_limits<double>::infinity();  ///< cost of 
 
 /// Whether a triangle, with its corner v at `to`, faces against the surface normals at its free corners. Kept
 /// corners are ignored, as they lie on edges between two sides.
-inline bool faces_inwards(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Row& row,
+inline bool faces_inwards(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Corners& row,
                           std::uint32_t v = nothing, const Place& to = {}) {
   std::array<Vec, 3> corner;
   Vec outwards;
@@ -32,8 +32,8 @@ inline bool faces_inwards(const WorkMesh& mesh, const Surface& surface, const Wo
 
 /// Whether a triangle turns over when it becomes `after`, with corner v at `to`: by a large angle at once,
 /// or, since small ones add up, against the surface.
-inline bool turns_over(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Row& row,
-                       const WorkMesh::Row& after, std::uint32_t v = nothing, const Place& to = {}) {
+inline bool turns_over(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Corners& row,
+                       const WorkMesh::Corners& after, std::uint32_t v = nothing, const Place& to = {}) {
   const auto at = [&](std::size_t k) { return after[k] == v ? to.at : mesh.at(after[k]); };
   const Vec old = normal_of(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2]));
   const Vec normal = normal_of(at(0), at(1), at(2));
@@ -56,7 +56,7 @@ double cost_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v
                    const Cost& cost) {
   double most = -worst;
   for (const std::uint32_t t : mesh.around(v)) {
-    const WorkMesh::Row& row = mesh.triangle(t);
+    const WorkMesh::Corners& row = mesh.triangle(t);
     std::array<Vec, 3> corner{mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])};
     for (std::size_t k = 0; k < 3; ++k)
       if (row[k] == v) corner[k] = to.at;

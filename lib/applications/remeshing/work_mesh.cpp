@@ -177,7 +177,7 @@ bool WorkMesh::can_collapse(std::uint32_t a, std::uint32_t b, std::size_t least_
 
 void WorkMesh::collapse(std::uint32_t a, std::uint32_t b) {
   for (const std::uint32_t t : triangles_at(a, b)) {
-    for (const std::uint32_t v : Row(triangle_[t])) detach(v, t);
+    for (const std::uint32_t v : Corners(triangle_[t])) detach(v, t);
     triangle_[t] = {0, 0, 0};
   }
   for (const std::uint32_t t : around_[a]) {

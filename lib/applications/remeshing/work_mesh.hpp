@@ -15,7 +15,7 @@ namespace powercell::remeshing {
 /// An oriented manifold. All operations keep it one.
 class WorkMesh {
  public:
-  using Row = std::array<std::uint32_t, 3>;
+  using Corners = std::array<std::uint32_t, 3>;
 
   WorkMesh(const Sampling& sampling, const DualMesh& dual);
   /// The triangles of the surface themselves, to be collapsed.
@@ -33,9 +33,9 @@ class WorkMesh {
   const Vertex& vertex(std::uint32_t v) const { return vertex_[v]; }
   Vec at(std::uint32_t v) const { return vertex_[v].place.at; }
   void move(std::uint32_t v, const Place& place, double h);
-  const std::vector<Row>& triangles() const { return triangle_; }  ///< removed ones are {0, 0, 0}
+  const std::vector<Corners>& triangles() const { return triangle_; }  ///< removed ones are {0, 0, 0}
   const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[v]; }  ///< triangles
-  const Row& triangle(std::uint32_t t) const { return triangle_[t]; }
+  const Corners& triangle(std::uint32_t t) const { return triangle_[t]; }
   std::size_t degree(std::uint32_t v) const { return around_[v].size() + (vertex_[v].boundary ? 1 : 0); }
   bool kept(std::uint32_t a, std::uint32_t b) const;  ///< whether the edge is part of a kept curve
   /// Vertices that share an edge with v, ascending.
@@ -67,7 +67,7 @@ class WorkMesh {
 
   std::vector<Vertex> vertex_;
   std::vector<std::vector<std::uint32_t>> chord_, around_;
-  std::vector<Row> triangle_;
+  std::vector<Corners> triangle_;
   std::size_t alive_ = 0;
 };
 

@@ -46,7 +46,7 @@ TriangleMesh many_balls(double flat = 1) {
 std::size_t inwards(const WorkMesh& mesh, const Surface& surface) {
   return static_cast<std::size_t>(std::count_if(
       mesh.triangles().begin(), mesh.triangles().end(),
-      [&](const WorkMesh::Row& row) { return row[0] != row[1] && faces_inwards(mesh, surface, row); }));
+      [&](const WorkMesh::Corners& row) { return row[0] != row[1] && faces_inwards(mesh, surface, row); }));
 }
 
 }  // namespace

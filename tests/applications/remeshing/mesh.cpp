@@ -159,7 +159,7 @@ TEST_CASE("fitting brings the farthest triangles closer without worse shapes") {
       return std::pair(farthest, shape_cost);
     };
     const auto [far_before, shape_before] = figures();
-    const std::vector<WorkMesh::Row> rows_before = mesh.triangles();
+    const std::vector<WorkMesh::Corners> rows_before = mesh.triangles();
     fit(mesh, surface, sizing, 3);
     const auto [far_after, shape_after] = figures();
     CHECK(far_after <= far_before);
