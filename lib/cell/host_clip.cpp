@@ -186,8 +186,8 @@ class PieceClipper final : public HostClipper {
     return corners;
   }
 
-  /// Decides about all of many seeds, to know next time which of them tie. \param ties  the corners of the
-  /// vertex
+  /// Decides about all of many seeds, to know next time which of them tie.
+  /// \param ties  the corners of the vertex
   std::optional<std::uint32_t> find_and_learn(const ExactVertex& borders,
                                               const std::vector<std::uint32_t>& others,
                                               std::vector<std::uint32_t> ties) {

@@ -22,13 +22,17 @@ class TieSets {
 
   explicit TieSets(const HostScene& scene) : scene_(scene) {}
 
-  /// Keeps a set. \param ranks  all of its seeds, in any order
+  /// Keeps a set.
+  /// \param ranks  all of its seeds, in any order
   void learn(std::vector<std::uint32_t> ranks);
   /// The set that all of these seeds belong to, or null.
   const std::vector<std::uint32_t>* find(std::span<const std::uint32_t> corners) const;
   /// A seed of the set that takes the point from the others once infinitesimals (86) are counted; none if no
-  /// seed does. \param set      of find() \param corners  the seeds of a vertex: that of the cell, then its
-  /// neighbours \param vertex   the same as borders \param exact    decides what rounding leaves open
+  /// seed does.
+  /// \param set  of find()
+  /// \param corners  the seeds of a vertex: that of the cell, then its neighbours
+  /// \param vertex  the same as borders
+  /// \param exact  decides what rounding leaves open
   std::optional<std::uint32_t> taker(const std::vector<std::uint32_t>& set,
                                      std::span<const std::uint32_t> corners, const ExactVertex& vertex,
                                      ExactCell& exact) const;

@@ -23,8 +23,9 @@ std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& o
                                     const std::vector<Point>& moves);
 
 /// The worst-case cell of a leaf: the largest reach and the smallest weight of its seeds, as far from the
-/// origin as any of them. \param box  of the leaf, as translated \param reach  bounds the reach of each seed
-/// in the leaf
+/// origin as any of them.
+/// \param box  of the leaf, as translated
+/// \param reach  bounds the reach of each seed in the leaf
 CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, const BoxView& box, double reach);
 
 /// The boundary leaves: leaves of this shard's tree that are near boxes of the other's coarse tree, each

@@ -12,7 +12,7 @@
 
 namespace powercell::exchange {
 
-/// The part of a shard that seeds of another may concern, with the question for an coarse tree of these.
+/// The part of a shard that seeds of another may concern, with the question for a coarse tree of these.
 struct NearPart {
   Box box;
   double lightest = 0;  ///< weight of a seed there
@@ -34,7 +34,7 @@ struct BoundaryLeaves {
 struct Halo {
   std::vector<std::uint64_t> id;
   std::vector<double> seed;  ///< rows of position and weight
-  PackedTree unsent;         ///< an coarse tree of those that were not sent
+  PackedTree unsent;         ///< a coarse tree of those that were not sent
 
   std::size_t bytes() const { return bytes_of(id) + bytes_of(seed); }
 };

@@ -21,7 +21,7 @@ namespace powercell::exchange {
 /// What all shards tell all others at first, with a tree over these, so that far ones cost nothing.
 class FirstCoarseTrees {
  public:
-  /// \param coarse tree  by shard, of all its seeds; one without levels if it has none
+  /// \param coarse_tree  by shard, of all its seeds; one without levels if it has none
   FirstCoarseTrees(std::vector<PackedTree> coarse_tree, int dimension);
 
   std::size_t shards() const { return coarse_tree_.size(); }
@@ -49,7 +49,7 @@ class OtherShards {
   int dimension() const { return first_->tree().dimension; }
   /// A finer coarse tree of all seeds of a shard.
   void take_coarse_tree(int shard, PackedTree&& coarse_tree) { finer_[shard] = std::move(coarse_tree); }
-  /// An coarse tree of those that it has not sent.
+  /// A coarse tree of those that it has not sent.
   void take_unsent(int shard, PackedTree&& unsent) { unsent_[shard] = std::move(unsent); }
 
   /// The finest coarse tree of all seeds of a shard.
@@ -116,7 +116,7 @@ class NearBoxes {
 
  private:
   static constexpr std::size_t most_boxes = 96;  // more are searched from the roots
-  /// Whether an coarse tree has a leaf that, like all nodes above it, is open(tree, number).
+  /// Whether a coarse tree has a leaf that, like all nodes above it, is open(tree, number).
   template <class Open>
   bool has_box(const Open& open) const;
 

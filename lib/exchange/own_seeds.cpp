@@ -18,7 +18,7 @@
 namespace powercell::exchange {
 namespace {
 
-/// Nodes of the lowest level of an coarse tree. That of the rest has lower ones at the boundary.
+/// Nodes of the lowest level of a coarse tree. That of the rest has lower ones at the boundary.
 constexpr std::size_t coarse_nodes = 512;
 
 /// The part with the seeds whose cells are asked about.

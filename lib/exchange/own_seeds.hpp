@@ -68,7 +68,7 @@ class OwnSeeds {
   /// \param other  its coarse tree
   /// \param moves  as of find_boundary_leaves
   BoundaryLeaves boundary(const PackedTree& other, const std::vector<Point>& moves) const;
-  /// An coarse tree of all seeds for another shard.
+  /// A coarse tree of all seeds for another shard.
   /// \param asker  its number
   /// \param part  where its seeds are
   /// \pre there are seeds
@@ -78,7 +78,7 @@ class OwnSeeds {
   /// \pre none were sent to it
   Halo near(int asker, const BoundaryLeaves& boundary);
   /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex; and
-  /// an coarse tree, if the shard that asks has none.
+  /// a coarse tree, if the shard that asks has none.
   /// \param asker  its number
   Reply answer(int asker, const Request& request);
   /// By number of a shard: ids of hidden seeds that were sent to it, each once.
@@ -115,7 +115,7 @@ class OwnSeeds {
   SeedSet set_;
   PackedTree tree_;
   std::optional<Whole> whole_;
-  /// By number of the shards that have an coarse tree: 1 if sent, 2 if it was told too that the seed is
+  /// By number of the shards that have a coarse tree: 1 if sent, 2 if it was told too that the seed is
   /// hidden.
   std::map<int, Sent> sent_;
   std::uint64_t sent_count_ = 0;

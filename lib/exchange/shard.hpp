@@ -28,7 +28,7 @@ struct ShardCells {
 /// All shards take the same steps, one after the other or each on a machine of its own:
 ///
 ///     set_hidden_aside(), which may be left out; meet() the boxes of the seeds of all
-///     send near_parts(), answer them by OwnSeeds::coarse tree(), take() the coarse trees
+///     send near_parts(), answer them by OwnSeeds::coarse_tree(), take() the coarse trees
 ///     send boundaries(), answer them by OwnSeeds::near(), take() the halos; this saves rounds and may be
 ///     left out while some shard has open cells:
 ///       while some shard has: clip(); send the requests, answer() them, take() the replies; settle()

@@ -12,7 +12,8 @@
 namespace powercell::exchange {
 
 /// Lattice translations to the periods whose images may matter to a wrapped seed's cell; the first is zero.
-/// Zero alone without periods. \param period  null if the domain is not periodic
+/// Zero alone without periods.
+/// \param period  null if the domain is not periodic
 std::vector<Point> translations(const Period* period);
 
 /// A row of position and weight, or a box, moved. Wrapped seeds are moved without rounding.

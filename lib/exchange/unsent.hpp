@@ -12,7 +12,7 @@
 
 namespace powercell::exchange {
 
-/// An coarse tree of the seeds that were not sent: nodes of the cut, and lower ones where seeds were sent or
+/// A coarse tree of the seeds that were not sent: nodes of the cut, and lower ones where seeds were sent or
 /// the boundary is near, down to boxes around the rest of a leaf. \param cut  of the tree \param boundary  of
 /// the other shard \param sent  ranks, ascending
 PackedTree coarse_tree_of_unsent(const TreeSeeds& seeds, const TreeCut& cut, const BoundaryLeaves& boundary,

@@ -18,7 +18,7 @@
 namespace powercell::out_of_core {
 namespace {
 
-/// Nodes of an coarse tree far from the piece, and of that of the piece itself.
+/// Nodes of a coarse tree far from the piece, and of that of the piece itself.
 constexpr std::size_t coarse_nodes = 512;
 /// What is nearer to a box of the piece's coarse tree than this part of its edge is in a coarse tree leaf by
 /// leaf.

@@ -32,7 +32,7 @@ class OtherSeeds {
 
   /// Answers are for a piece from here on.
   /// \param own  the tree of its seeds
-  /// \return an coarse tree of the seeds of the others, finer near those of the piece
+  /// \return a coarse tree of the seeds of the others, finer near those of the piece
   PackedTree begin(std::size_t piece, const PackedTree& own);
   /// The seeds near the boundary of the piece, and the heaviest of all, which may reach it from anywhere.
   /// \pre none were sent since begin()
@@ -43,7 +43,7 @@ class OtherSeeds {
  private:
   bool is_own(std::size_t rank) const { return first_ <= rank && rank < last_; }
   void send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows);
-  /// An coarse tree of all but the seeds of the piece and those of some ranks of others, ascending.
+  /// A coarse tree of all but the seeds of the piece and those of some ranks of others, ascending.
   template <class Near>
   PackedTree coarse_tree_without(const std::vector<std::uint32_t>& ranks, const Near& near) const;
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, Optional
+from typing import Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +20,7 @@ Reals = NDArray[np.float64]
 Integers = NDArray[np.intp]
 
 SAME_CENTER = 1e-10  # centres of adjacent simplices, relative to their distance from the seeds: a tie
-SAME_VERTEX = 1e-11  # vertices of cells of a domain, relative to its extent
+SAME_VERTEX, SAME_VERTEX_FLOAT = 1e-11, 1e-5  # vertices of cells of a domain, relative to its extent
 
 
 class Voronoi:
@@ -33,7 +33,7 @@ class Voronoi:
     vertices : (m, d) float64
         Shared by the cells. Vertices that coincide by a tie are one.
     ridge_points : (r, 2) int32
-        The two seeds of each wall.
+        The two seeds of each wall. In a domain whose shape cuts a wall in parts a pair stands once for each.
     ridge_vertices : list of r lists
         The vertices of each wall in order, -1 first where it is unbounded.
     regions : list of lists
@@ -130,8 +130,10 @@ def voronoi(
         require_domain(domain)
         if domain.is_periodic:
             raise ValueError("cells of a periodic domain share no vertices; use Diagram(...).joined")
+        if domain.cell_dimension != domain.dimension or domain.dimension != result.ndim:
+            raise ValueError(f"a domain in {'the plane' if result.ndim == 2 else 'space'} is expected, as the seeds; use Diagram")
         diagram = Diagram(domain, seeds, given, device=device, threads=threads)
-        _fill_from_cells(result, diagram.joined, diagram.mass, domain)
+        _fill_from_cells(result, diagram)
     return result
 
 
@@ -200,7 +202,8 @@ class _Simplices:
         alone[first] = alone[first + 1] = False
         a, b = of[first], of[first + 1]
         reach = np.maximum(np.linalg.norm(off[a], axis=1), np.linalg.norm(off[b], axis=1))
-        tie = np.linalg.norm(center[a] - center[b], axis=1) <= SAME_CENTER * reach
+        between = corner[a, 0] - corner[b, 0] + (off[a] - off[b])  # exact far from the origin too
+        tie = np.linalg.norm(between, axis=1) <= SAME_CENTER * reach
         kept, vertex = np.unique(_components(len(simplices), a[tie], b[tie]), return_inverse=True)
         place = np.lexsort(center[kept].T[::-1])  # an order that no triangulation of ties decides
         rank = np.empty_like(place)
@@ -319,44 +322,38 @@ def _same_vertices(x: Reals, distance: float) -> Integers:
     return _components(len(x), np.concatenate(a), np.concatenate(b))
 
 
-def _fill_from_cells(result: Voronoi, cells: Any, mass: Reals, domain: Domain) -> None:
+def _fill_from_cells(result: Voronoi, diagram: Diagram) -> None:
+    cells, domain = diagram.joined, diagram.domain
     low, high = (np.array(corner) for corner in domain.bounds)
-    kept, vertex = np.unique(
-        _same_vertices(cells.vertices - low, SAME_VERTEX * float((high - low).max())), return_inverse=True
-    )
+    extent, farthest = float((high - low).max()), float(np.abs([low, high]).max())
+    rounding = SAME_VERTEX * extent + 16 * float(np.finfo(float).eps) * farthest
+    if diagram.precision == "float":
+        rounding = SAME_VERTEX_FLOAT * extent
+    kept, vertex = np.unique(_same_vertices(cells.vertices - low, rounding), return_inverse=True)
+    vertex = vertex.reshape(-1)
     result.vertices = cells.vertices[kept]
     present = np.flatnonzero(np.diff(cells.vertex_offset))
-    loops = np.split(cells.loop, cells.loop_offset[1:-1])
-    ridges: dict[tuple[int, int], list[int]] = {}
+    ridges: list[tuple[int, int, list[int]]] = []
     regions = []
     for i in present.tolist():
         of_cell = vertex[cells.vertex_offset[i] : cells.vertex_offset[i + 1]]
-        if result.ndim == 2:
-            _add_ridges_2d(cells, loops, of_cell, i, ridges)
-        else:
-            for f in range(cells.face_offset[i], cells.face_offset[i + 1]):
-                kind, j = cells.face_border[f].tolist()
-                if kind == 0 and i < j:
-                    ridges[i, j] = _without_repeats(of_cell[loops[f]].tolist())
-        regions.append(_without_repeats(of_cell.tolist()) if result.ndim == 2 else sorted(set(of_cell.tolist())))
-    pairs = sorted(pair for pair, row in ridges.items() if len(row) >= result.ndim)
-    result.ridge_points = np.array(pairs, np.int32).reshape(-1, 2)
-    result.ridge_vertices = [ridges[pair] for pair in pairs]
+        region: list[int] = []
+        for f in range(cells.face_offset[i], cells.face_offset[i + 1]):
+            first, last = cells.loop_offset[f], cells.loop_offset[f + 1]
+            row = of_cell[cells.loop[first:last]].tolist()
+            region += row
+            if result.ndim == 3:
+                sides = [(*cells.face_border[f].tolist(), _without_repeats(row))]
+            else:
+                ends = zip(row, row[1:] + row[:1])
+                sides = [(*border, list(ab)) for border, ab in zip(cells.edge_border[first:last].tolist(), ends)]
+            ridges += [(i, j, side) for kind, j, side in sides if kind == 0 and i < j and len(set(side)) >= result.ndim]
+        regions.append(_without_repeats(region) if result.ndim == 2 else sorted(set(region)))
+    ridges.sort(key=lambda ridge: ridge[:2])
+    result.ridge_points = np.array([ridge[:2] for ridge in ridges], np.int32).reshape(-1, 2)
+    result.ridge_vertices = [ridge[2] for ridge in ridges]
     result._set_regions(present, regions)
-    result.volumes[:] = mass
-
-
-def _add_ridges_2d(
-    cells: Any, loops: list[Any], of_cell: Integers, i: int, ridges: dict[tuple[int, int], list[int]]
-) -> None:
-    for f in range(cells.face_offset[i], cells.face_offset[i + 1]):
-        loop = loops[f]
-        first = cells.loop_offset[f]
-        for k in range(len(loop)):
-            kind, j = cells.edge_border[first + k].tolist()
-            a, b = int(of_cell[loop[k]]), int(of_cell[loop[(k + 1) % len(loop)]])
-            if kind == 0 and i < j and a != b:
-                ridges[i, j] = [a, b]
+    result.volumes[:] = diagram.mass
 
 
 def _without_repeats(row: list[int]) -> list[int]:

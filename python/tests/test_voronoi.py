@@ -1,6 +1,7 @@
 """powercell.voronoi against scipy.spatial.Voronoi, and against Diagram where there are weights or a domain."""
 
 import itertools
+import pathlib
 
 import numpy as np
 import pytest
@@ -114,6 +115,31 @@ def test_cells_of_a_domain_have_their_neighbours_and_share_vertices(d):
         assert power[0] == pytest.approx(power[1], abs=1e-12)
 
 
+@pytest.mark.parametrize("name", ["disk", "ball", "italy.geojson", "bracket.mesh"])
+def test_walls_that_a_domain_cuts_in_parts_are_all_there(name):
+    path = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data" / name
+    domain = pc.read_domain(str(path) if path.exists() else name)
+    points = np.asarray(domain.random_points(60)[1])
+    diagram, v = pc.Diagram(domain, points), pc.voronoi(points, domain=domain)
+    size = np.zeros(60)
+    for (i, j), row in zip(v.ridge_points, v.ridge_vertices):
+        x = v.vertices[row] - v.vertices[row[0]]
+        part = np.linalg.norm(x[1]) if domain.dimension == 2 else np.linalg.norm(np.cross(x[1:-1], x[2:]).sum(axis=0)) / 2
+        size[[i, j]] += part
+    walls = np.add.reduceat(np.append(diagram.adjacency.data, 0), diagram.adjacency.indptr[:-1])
+    assert size == pytest.approx(walls, rel=1e-6)
+
+
+def test_far_from_the_origin_vertices_are_shared_and_ties_one():
+    grid = np.array(list(itertools.product(range(6), repeat=2)), float) + 2.0**20
+    assert len(pc.voronoi(grid).vertices) == 25
+    box = pc.Domain.box(grid.min(axis=0) - 0.5, grid.max(axis=0) + 0.5)
+    assert len(pc.voronoi(grid, domain=box).vertices) == 49
+    random = RNG.random((50, 2)) + 1e6
+    v = pc.voronoi(random, domain=pc.Domain.box([1e6, 1e6], [1e6 + 1, 1e6 + 1]))
+    assert len(v.vertices) == 2 * len(v.points) + 2  # Euler, with three walls or sides at each vertex
+
+
 def test_scipy_draws_it():
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("agg")
@@ -130,6 +156,8 @@ def test_refusals_say_what_to_do():
         pc.voronoi(np.zeros((5, 4)))
     with pytest.raises(ValueError, match="periodic"):
         pc.voronoi([[0.5, 0.5]], domain=pc.Domain.box([0, 0], [1, 1], periodic=True))
+    with pytest.raises(ValueError, match="a domain in space"):
+        pc.voronoi(np.eye(3), domain=pc.read_domain("sphere"))
     duplicates = pc.voronoi([[0, 0], [1, 0], [0, 1], [0, 0]])
     assert duplicates.hidden.tolist() == [False, False, False, True] and duplicates.point_region[3] == -1
     assert repr(duplicates).startswith("Voronoi") and "ridge_vertices: list of 3" in repr(duplicates)

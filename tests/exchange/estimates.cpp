@@ -1,4 +1,4 @@
-// What shards send each other before they clip: a estimate, which may be wrong, and an coarse tree of the
+// What shards send each other before they clip: a estimate, which may be wrong, and a coarse tree of the
 // rest, which may not.
 #include <doctest/doctest.h>
 

@@ -91,7 +91,8 @@ class Expression {
     std::string functions;
     for (const auto& [name, function] : parser_.GetFunDef())
       if (name.front() != '_') functions += (functions.empty() ? "" : ", ") + name;
-    return "'" + error.GetToken() + "' is unknown; there are x, y, z, pi, e and the functions " + functions;
+    return "'" + error.GetToken() + "' is unknown; there are x, y, in space z, pi, e and the functions " +
+           functions;
   }
 
   static constexpr std::size_t longest = 300;  // bytes of the formula and of a message that are quoted

@@ -49,7 +49,7 @@ TEST_CASE("a formula's error says what could be written instead") {
     return message(ErrorCode::invalid_argument, [&] { (void)Density::formula(text).total(unit_box(2)); });
   };
   CHECK(has(said("x**2"), "powers are written with ^, as in x^2"));
-  CHECK(has(said("1 + q"), "'q' is unknown; there are x, y, z, pi, e"));
+  CHECK(has(said("1 + q"), "'q' is unknown; there are x, y, in space z, pi, e"));
   CHECK(has(said("np.exp(x)"), "'np' is unknown"));
   CHECK(has(said("1 + z"), "z is 0 everywhere in this domain; use x and y"));
   CHECK(Density::formula("1 + z").total(unit_box(3)) == doctest::Approx(1.5));
