@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t shared_cells = 4096;  // with fewer ranks, threads cost more than they save
 
-Shift opposite(const Shift& shift) {
-  return {-shift[0], -shift[1], -shift[2]};
-}
-
 /// Combines the two sides of each wall: that of seed i with seed j in an image, and that of j with i in the
 /// opposite one. Both sides become minus their mean, so that the sign tells which walls two cells have.
 class PeriodicMatcher {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/cl/transfers.hpp"
+#include "lib/collect/walls.hpp"
 
 namespace powercell {
 
@@ -223,18 +224,7 @@ namespace {
 
 constexpr std::uint32_t not_listed = ~std::uint32_t{0};
 
-struct Wall {
-  std::uint32_t neighbor;
-  Shift shift;
-  double measure;
-  bool operator<(const Wall& other) const {
-    return neighbor != other.neighbor ? neighbor < other.neighbor : shift < other.shift;
-  }
-};
-
-Shift opposite(const Shift& shift) {
-  return {-shift[0], -shift[1], -shift[2]};
-}
+using Wall = PlacedWall;
 
 /// The walls of listed cells by row, those of the rows of their neighbours too.
 class NewWalls {

@@ -14,6 +14,10 @@ namespace powercell {
 /// A combination of translations with integer factors.
 using Shift = std::array<std::int32_t, 3>;
 
+inline Shift opposite(const Shift& shift) {
+  return {-shift[0], -shift[1], -shift[2]};
+}
+
 /// The lattice of a periodic domain. Distances are computed with the vectors of a reduced basis, whose
 /// coordinates are multiples of `quantum`, as are those of wrapped seeds: all images of a seed that can
 /// matter are then doubles without rounding.
